@@ -1,0 +1,56 @@
+//! What the command line can fail with; each is one clear line.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::photon_list::error::ListError;
+use crate::scene::obj::ModelError;
+
+/// Why a command could not be carried out.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// A model could not be read.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A photon list could not be read.
+    #[error(transparent)]
+    List(#[from] ListError),
+    /// A file or folder could not be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Unwritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// An argument does not fit the others.
+    #[error("{0}")]
+    Argument(String),
+    /// Standard output was closed by its reader.
+    #[error("standard output was closed")]
+    ClosedPipe,
+    /// Standard output could not be written.
+    #[error("standard output cannot be written: {0}")]
+    Output(io::Error),
+}
+
+impl CliError {
+    /// `path` could not be written because of `source`.
+    pub fn unwritable(path: &Path, source: io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), source }
+    }
+}
+
+/// Prints `text` to standard output.
+///
+/// # Errors
+/// When standard output cannot be written.
+pub fn print(text: &str) -> Result<(), CliError> {
+    let mut output = io::stdout().lock();
+    io::Write::write_all(&mut output, text.as_bytes())
+        .and_then(|()| io::Write::flush(&mut output))
+        .map_err(|error| match error.kind() {
+            io::ErrorKind::BrokenPipe => CliError::ClosedPipe,
+            _ => CliError::Output(error),
+        })
+}

@@ -1,0 +1,70 @@
+//! The command line: a file for every verb, each of which parses, calls and prints.
+
+pub mod error;
+pub mod output;
+pub mod render;
+pub mod values;
+
+use clap::{Parser, Subcommand};
+
+use error::CliError;
+
+/// The exit code of everything that could not be done.
+pub const FAILED: u8 = 2;
+
+#[derive(Debug, Parser)]
+#[command(
+    name = "photon-mapping",
+    version,
+    about = "The deterministic reference of Stanford CS148's Assignment 8, photon mapping",
+    after_help = "Without a command, photon-mapping renders: its options are those of 'render'.",
+    args_conflicts_with_subcommands = true
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    render: render::RenderArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Trace the photons, write their list, and draw the picture
+    Render(Box<render::RenderArgs>),
+}
+
+/// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
+/// code.
+pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) if !error.use_stderr() => {
+            // Help and version; a closed pipe is the reader's choice.
+            let _ = error.print();
+            return 0;
+        }
+        Err(error) => {
+            eprintln!("{}", one_line(&error.to_string()));
+            return FAILED;
+        }
+    };
+    output::remove_unfinished_files_on_interrupt();
+    let result = match cli.command {
+        None => render::run(&cli.render),
+        Some(Command::Render(arguments)) => render::run(&arguments),
+    };
+    match result {
+        Ok(code) => code,
+        Err(CliError::ClosedPipe) => 0,
+        Err(error) => {
+            eprintln!("error: {}", one_line(&error.to_string()));
+            FAILED
+        }
+    }
+}
+
+/// The first paragraph of `text` on one line.
+fn one_line(text: &str) -> String {
+    let paragraph = text.split("\n\n").next().unwrap_or_default();
+    paragraph.split_whitespace().collect::<Vec<_>>().join(" ")
+}

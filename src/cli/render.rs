@@ -1,0 +1,322 @@
+//! `photon-mapping render`: trace the photons, write their list, draw the picture.
+
+use std::io::{self, IsTerminal};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+
+use super::error::{CliError, print};
+use super::output::OutputFile;
+use super::values;
+use crate::assignment8;
+use crate::photon_list::reader;
+use crate::photon_list::record::PhotonRecord;
+use crate::photon_list::trace::trace_list;
+use crate::photon_list::writer::{Format, ListHash, ListWriter};
+use crate::rendering::image_writer::take_picture;
+use crate::rendering::photon_map::PhotonMap;
+use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::sampling::TangentBasis;
+use crate::scene::lights::point_light::PointLight;
+use crate::scene::{Scene, obj};
+use crate::summary::{SurfaceSummary, Tally, table};
+
+/// The options of `render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The key of all random numbers, a whole number below 2^64
+    #[arg(long, value_name = "N", default_value_t = assignment8::SEED)]
+    seed: u64,
+    /// How many photons all lights send out together, up to 2^32 - 1
+    #[arg(long, value_name = "N", default_value_t = assignment8::PHOTON_COUNT,
+          value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
+    photons: u64,
+    /// How often a photon may bounce at most, 0 to 1000 times
+    #[arg(long, value_name = "N", default_value_t = assignment8::MAX_PHOTON_BOUNCES,
+          value_parser = clap::value_parser!(i32).range(0..=1000))]
+    max_bounces: i32,
+    /// Trace only the photons numbered A up to, but not with, B; the lists of adjoining ranges,
+    /// one after another, are the whole run's list [default: all]
+    #[arg(long, value_name = "A..B", value_parser = values::range)]
+    range: Option<Range<u64>>,
+    /// How many threads to use; the list does not depend on it [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Width and height of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
+    size: (u32, u32),
+    /// The folder for the picture and the list; it is made if need be
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Trace nothing: draw the dots of this list, PLY or CSV, with at least the columns x, y and z
+    #[arg(long, value_name = "FILE",
+          conflicts_with_all = ["seed", "photons", "max_bounces", "range", "format",
+                                "letter_of_the_handout"])]
+    photons_from: Option<PathBuf>,
+    /// The format of the list
+    #[arg(long, value_enum, default_value_t = FormatName::Ply)]
+    format: FormatName,
+    /// A Wavefront OBJ model, y up, instead of the handout's; it is turned so that z is up. Needs
+    /// --light
+    #[arg(long, value_name = "FILE.obj", requires = "light")]
+    scene: Option<PathBuf>,
+    /// A point light of the scene: its position (z up), then its colour, white if left out; may be
+    /// given several times, photons are shared by brightness
+    #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
+          allow_hyphen_values = true)]
+    light: Vec<PointLight>,
+    /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
+    #[arg(long)]
+    letter_of_the_handout: bool,
+    /// No progress bars
+    #[arg(long, short)]
+    quiet: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// The names of the list formats.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FormatName {
+    /// Binary PLY, for MeshLab, CloudCompare and Blender
+    Ply,
+    /// Comma-separated values, for everything else
+    Csv,
+}
+
+/// What a run did.
+#[derive(Debug, Serialize)]
+struct Summary {
+    seed: Option<u64>,
+    emitted: Option<u64>,
+    stored: u64,
+    sha256: Option<String>,
+    seconds: Seconds,
+    surfaces: Vec<SurfaceSummary>,
+    files: Vec<PathBuf>,
+}
+
+/// How long each phase took. The list's rows are written while later photons are traced; `write`
+/// is what remains to be done after that.
+#[derive(Debug, Default, Serialize)]
+struct Seconds {
+    trace: f64,
+    picture: f64,
+    write: f64,
+}
+
+/// Renders, and prints the summary.
+///
+/// # Errors
+/// When an input cannot be read or an output cannot be written.
+pub fn run(arguments: &RenderArgs) -> Result<u8, CliError> {
+    let threads = arguments.threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| CliError::Argument(format!("--threads: {error}")))?;
+    let summary = pool.install(|| render(arguments))?;
+    if arguments.json {
+        let json = serde_json::to_string(&summary).expect("a summary has only plain values");
+        print(&(json + "\n"))?;
+    } else {
+        print(&text(&summary))?;
+    }
+    Ok(0)
+}
+
+fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
+    let mut renderer = assignment8::create_renderer(scene(arguments)?);
+    renderer.seed = arguments.seed;
+    renderer.photon_count = arguments.photons;
+    renderer.max_photon_bounces = arguments.max_bounces;
+    if arguments.letter_of_the_handout {
+        renderer.tangent_basis = TangentBasis::LetterOfTheHandout;
+    }
+    let mut picture_file = OutputFile::create(&arguments.out.join("assignment8.png"))?;
+    let (mut summary, list_file) = match &arguments.photons_from {
+        Some(path) => (read_list(arguments, path, &mut renderer)?, None),
+        None => {
+            let (summary, file) = trace(arguments, &mut renderer)?;
+            (summary, Some(file))
+        }
+    };
+
+    let start = Instant::now();
+    let (width, height) = arguments.size;
+    let camera = assignment8::create_camera(width, height);
+    let progress = progress(arguments, "picture", u64::from(height));
+    let picture = take_picture(&renderer, &camera, width, height, || progress.inc(1));
+    progress.finish_and_clear();
+    summary.seconds.picture = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    let mut png = io::BufWriter::new(picture_file.file());
+    let written = picture.write_to(&mut png, image::ImageFormat::Png);
+    let flushed = written.map_err(io::Error::other).and_then(|()| io::Write::flush(&mut png));
+    drop(png);
+    flushed.map_err(|error| CliError::unwritable(picture_file.path(), error))?;
+    for file in [Some(picture_file), list_file].into_iter().flatten() {
+        summary.files.push(file.path().to_owned());
+        file.persist()?;
+    }
+    summary.seconds.write += start.elapsed().as_secs_f64();
+    Ok(summary)
+}
+
+fn scene(arguments: &RenderArgs) -> Result<Scene, CliError> {
+    let Some(path) = &arguments.scene else {
+        return Ok(assignment8::create_scene());
+    };
+    let model = obj::load(path)?;
+    Ok(Scene::new(model.mesh_objects, model.triangles, arguments.light.clone()))
+}
+
+/// Traces the list into a file that is not yet in its place, and fills the photon map.
+fn trace(
+    arguments: &RenderArgs,
+    renderer: &mut PhotonMappingRenderer,
+) -> Result<(Summary, OutputFile), CliError> {
+    let start = Instant::now();
+    let emitted = renderer.emitted();
+    let photons = arguments.range.clone().unwrap_or(0..emitted);
+    if photons.end > emitted {
+        let Range { start, end } = photons;
+        return Err(CliError::Argument(format!(
+            "--range {start}..{end}: expected an end of at most {emitted}, the photons of the run"
+        )));
+    }
+    let (name, format) = match arguments.format {
+        FormatName::Ply => ("photons.ply", Format::Ply),
+        FormatName::Csv => ("photons.csv", Format::Csv),
+    };
+    let mut file = OutputFile::create(&arguments.out.join(name))?;
+    let path = file.path().to_owned();
+    let unwritable = |error| CliError::unwritable(&path, error);
+    let mut hash = ListHash::default();
+    let mut tally = tally(&renderer.stored_scene);
+    let mut positions = Vec::new();
+    let progress = progress(arguments, "photons", photons.end - photons.start);
+    let mut writer =
+        ListWriter::new(file.file(), format, comments(renderer, &photons)).map_err(unwritable)?;
+    trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
+        for record in records {
+            hash.update(record);
+            tally.add(record);
+            positions.push(record.position);
+        }
+        progress.set_position(done);
+        writer.write(records)
+    })
+    .and_then(|()| writer.finish())
+    .map_err(unwritable)?;
+    progress.finish_and_clear();
+    renderer.diffuse_map = PhotonMap::new(positions);
+    let emitted = photons.end - photons.start;
+    let summary = Summary {
+        seed: Some(renderer.seed),
+        emitted: Some(emitted),
+        stored: tally.stored(),
+        sha256: Some(hash.hex()),
+        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
+        surfaces: tally.surfaces(emitted, renderer.max_photon_bounces as usize, None),
+        files: Vec::new(),
+    };
+    Ok((summary, file))
+}
+
+/// Fills the photon map from the list `path`.
+fn read_list(
+    arguments: &RenderArgs,
+    path: &Path,
+    renderer: &mut PhotonMappingRenderer,
+) -> Result<Summary, CliError> {
+    let start = Instant::now();
+    let surfaces = renderer.stored_scene.mesh_objects().len();
+    let mut hash = ListHash::default();
+    let mut tally = tally(&renderer.stored_scene);
+    let mut positions = Vec::new();
+    let progress = progress(arguments, "list", 0);
+    let columns = reader::read(path, |record| {
+        positions.push(record.position);
+        hash.update(&record);
+        if usize::from(record.surface) < surfaces && (1..=1000).contains(&record.bounce) {
+            tally.add(&record);
+        }
+        progress.inc(1);
+    })?;
+    progress.finish_and_clear();
+    let stored = positions.len() as u64;
+    renderer.diffuse_map = PhotonMap::new(positions);
+    Ok(Summary {
+        seed: None,
+        emitted: None,
+        stored,
+        sha256: columns.all().then(|| hash.hex()),
+        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
+        surfaces: if columns.surface && columns.bounce {
+            tally.surfaces(stored, 1000, None)
+        } else {
+            Vec::new()
+        },
+        files: Vec::new(),
+    })
+}
+
+fn tally(scene: &Scene) -> Tally {
+    Tally::new(scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()))
+}
+
+/// What the header of a PLY list says of the run.
+fn comments(renderer: &PhotonMappingRenderer, photons: &Range<u64>) -> Vec<String> {
+    let version = env!("CARGO_PKG_VERSION");
+    let PhotonMappingRenderer { seed, max_photon_bounces, .. } = renderer;
+    let emitted = renderer.emitted();
+    let Range { start, end } = photons;
+    let mut comments = vec![
+        format!("photon-mapping {version}"),
+        format!("seed {seed} emitted {emitted} max_bounces {max_photon_bounces}"),
+        format!("range {start}..{end}"),
+    ];
+    let mesh_objects = renderer.stored_scene.mesh_objects().iter().enumerate();
+    comments.extend(mesh_objects.map(|(index, mesh)| format!("surface {index} {}", mesh.name)));
+    comments
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress(arguments: &RenderArgs, what: &'static str, length: u64) -> ProgressBar {
+    let hidden = arguments.quiet || !io::stderr().is_terminal();
+    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let style = "{msg:8} {wide_bar} {human_pos}/{human_len} {eta}";
+    let style = ProgressStyle::with_template(style).expect("the template is well formed");
+    ProgressBar::with_draw_target(Some(length), target).with_style(style).with_message(what)
+}
+
+fn text(summary: &Summary) -> String {
+    let mut text = String::new();
+    if let (Some(seed), Some(emitted)) = (summary.seed, summary.emitted) {
+        text += &format!("seed {seed}: {emitted} photons emitted, {} stored\n\n", summary.stored);
+    } else {
+        text += &format!("{} photons read\n\n", summary.stored);
+    }
+    if !summary.surfaces.is_empty() {
+        text += &table(&summary.surfaces);
+        if summary.surfaces.iter().any(|surface| surface.expected.is_some()) {
+            text += "stored / expected (difference in standard deviations)\n";
+        }
+        text += "\n";
+    }
+    if let Some(sha256) = &summary.sha256 {
+        text += &format!("photon list SHA-256 {sha256}\n");
+    }
+    let Seconds { trace, picture, write } = summary.seconds;
+    let first = if summary.seed.is_some() { "trace" } else { "read" };
+    text += &format!("seconds: {first} {trace:.2}, picture {picture:.2}, write {write:.2}\n");
+    for file in &summary.files {
+        text += &format!("written: {}\n", file.display());
+    }
+    text
+}

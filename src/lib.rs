@@ -1,0 +1,15 @@
+//! A deterministic reference of Stanford CS148's Assignment 8, photon mapping.
+//!
+//! The ground floor is the assignment, in the handout's order: [`assignment8`] builds the scene and
+//! the renderer, [`scene::lights::point_light`] sends photons out, and
+//! [`rendering::photon_mapping_renderer`] follows, stores and shows them. `ASSIGNMENT.md` reads
+//! along. The rooms above look on and are not needed to understand it: [`photon_list`] keeps exact
+//! lists, [`summary`] holds a run against what is expected, [`cli`] is the command line.
+
+pub mod assignment8;
+pub mod cli;
+pub mod photon_list;
+pub mod random;
+pub mod rendering;
+pub mod scene;
+pub mod summary;

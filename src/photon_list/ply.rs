@@ -1,0 +1,202 @@
+//! Lists as PLY (Greg Turk's Polygon File Format), which MeshLab, CloudCompare and Blender open.
+
+use std::io::{BufRead, Read};
+use std::path::Path;
+
+use super::error::ListError;
+use super::record::{Columns, PhotonRecord, Value};
+
+/// The longest count a header has room for: that of 2^32 - 1 photons which all bounce 1000 times.
+const COUNT_DIGITS: usize = 13;
+const LONGEST_HEADER_LINE: u64 = 4096;
+const MOST_HEADER_LINES: usize = 10_000;
+
+/// The header of a binary list of `count` rows, with one line of comment for each of `comments`.
+/// Its length does not depend on `count`, so that it can be written first and filled in last.
+pub fn header(count: u64, comments: &[String]) -> String {
+    let mut header = String::from("ply\nformat binary_little_endian 1.0\n");
+    for comment in comments {
+        header += &format!("comment {}\n", comment.replace(['\n', '\r'], " "));
+    }
+    let count = count.to_string();
+    header += &format!("element vertex {count}\n");
+    for name in super::record::COLUMNS {
+        let kind = match name {
+            "photon" => "uint",
+            "bounce" | "surface" => "ushort",
+            _ => "float",
+        };
+        header += &format!("property {kind} {name}\n");
+    }
+    header += &format!("comment {}\nend_header\n", ".".repeat(COUNT_DIGITS - count.len()));
+    header
+}
+
+#[derive(Clone, Copy)]
+enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+
+    fn bytes(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    /// The value of as many little-endian bytes as the type has.
+    fn value(self, bytes: &[u8]) -> Value<'static> {
+        let mut wide = [0; 8];
+        wide[..bytes.len()].copy_from_slice(bytes);
+        let whole = u64::from_le_bytes(wide);
+        match self {
+            Self::I8 => Value::Whole(i64::from(whole as i8)),
+            Self::I16 => Value::Whole(i64::from(whole as i16)),
+            Self::I32 => Value::Whole(i64::from(whole as i32)),
+            Self::U8 | Self::U16 | Self::U32 => Value::Whole(whole as i64),
+            Self::F32 => Value::Float(f32::from_bits(whole as u32)),
+            Self::F64 => Value::Double(f64::from_bits(whole)),
+        }
+    }
+}
+
+struct Header {
+    binary: bool,
+    count: u64,
+    properties: Vec<(Scalar, String)>,
+}
+
+/// Reads the list in `input`, the contents of the file `path`, whose first line has been found to
+/// be `ply`.
+pub(super) fn read(
+    mut input: impl BufRead,
+    path: &Path,
+    mut on_record: impl FnMut(PhotonRecord),
+) -> Result<Columns, ListError> {
+    let header = read_header(&mut input, path)?;
+    let names = header.properties.iter().map(|(_, name)| name.as_str());
+    let (columns, places) =
+        Columns::of(names).map_err(|message| ListError::malformed(path, message))?;
+    let mut row = vec![0; header.properties.iter().map(|(scalar, _)| scalar.bytes()).sum()];
+    let mut line = String::new();
+    for number in 0..header.count {
+        let truncated = || {
+            let expected = header.count;
+            let message = format!("expected {expected} photons, found {number}: truncated?");
+            ListError::malformed(path, message)
+        };
+        let mut record = PhotonRecord::ABSENT;
+        let wrong = |name: &str| {
+            let message = format!("photon {number} of the list: expected a number for '{name}'");
+            ListError::malformed(path, message)
+        };
+        if header.binary {
+            input.read_exact(&mut row).map_err(|error| match error.kind() {
+                std::io::ErrorKind::UnexpectedEof => truncated(),
+                _ => ListError::unreadable(path, error),
+            })?;
+            let mut rest = row.as_slice();
+            for ((scalar, name), place) in header.properties.iter().zip(&places) {
+                let (bytes, after) = rest.split_at(scalar.bytes());
+                rest = after;
+                if let Some(place) = *place {
+                    record.set(place, scalar.value(bytes)).ok_or_else(|| wrong(name))?;
+                }
+            }
+        } else {
+            if read_line(&mut input, path, &mut line)? == 0 {
+                return Err(truncated());
+            }
+            let mut words = line.split_whitespace();
+            for ((_, name), place) in header.properties.iter().zip(&places) {
+                let word = words.next().ok_or_else(|| wrong(name))?;
+                if let Some(place) = *place {
+                    record.set(place, Value::Text(word)).ok_or_else(|| wrong(name))?;
+                }
+            }
+        }
+        on_record(record);
+    }
+    Ok(columns)
+}
+
+fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListError> {
+    let mut line = String::new();
+    let mut binary = None;
+    let mut count = None;
+    let mut in_vertex = false;
+    let mut properties = Vec::new();
+    for number in 1..=MOST_HEADER_LINES {
+        let error = |message: &str| ListError::malformed(path, format!("line {number}: {message}"));
+        if read_line(input, path, &mut line)? == 0 {
+            return Err(error("expected 'end_header' before the end of the file"));
+        }
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words.as_slice() {
+            ["ply"] | ["comment", ..] | ["obj_info", ..] | [] => {}
+            ["format", format, _] => {
+                binary = Some(match *format {
+                    "binary_little_endian" => true,
+                    "ascii" => false,
+                    _ => return Err(error("expected the format binary_little_endian or ascii")),
+                });
+            }
+            ["element", "vertex", number] => {
+                count = Some(number.parse().map_err(|_| error("expected a count of vertices"))?);
+                in_vertex = true;
+            }
+            ["element", ..] => {
+                if count.is_none() {
+                    return Err(error("expected the vertices to be the first element"));
+                }
+                in_vertex = false;
+            }
+            ["property", kind, name] if in_vertex => {
+                let scalar = Scalar::named(kind);
+                let scalar = scalar.ok_or_else(|| error("expected a type that PLY knows"))?;
+                properties.push((scalar, (*name).to_owned()));
+            }
+            ["property", ..] if !in_vertex => {}
+            ["end_header"] => {
+                let (Some(binary), Some(count)) = (binary, count) else {
+                    return Err(error("expected 'format' and 'element vertex' before 'end_header'"));
+                };
+                return Ok(Header { binary, count, properties });
+            }
+            _ => return Err(error("expected a line of a PLY header of plain properties")),
+        }
+    }
+    Err(ListError::malformed(path, format!("expected a header of under {MOST_HEADER_LINES} lines")))
+}
+
+fn read_line(input: &mut impl BufRead, path: &Path, line: &mut String) -> Result<usize, ListError> {
+    line.clear();
+    input.take(LONGEST_HEADER_LINE).read_line(line).map_err(|error| match error.kind() {
+        std::io::ErrorKind::InvalidData => ListError::malformed(path, "expected text"),
+        _ => ListError::unreadable(path, error),
+    })
+}

@@ -1,0 +1,167 @@
+//! One row of a photon list.
+
+use glam::Vec3;
+
+/// The columns of a list, in the order in which they are written.
+pub const COLUMNS: [&str; 12] = [
+    "x",
+    "y",
+    "z",
+    "intensity_r",
+    "intensity_g",
+    "intensity_b",
+    "to_light_x",
+    "to_light_y",
+    "to_light_z",
+    "photon",
+    "bounce",
+    "surface",
+];
+
+/// How many bytes a row takes in binary.
+pub const ROW_BYTES: usize = 44;
+
+/// A stored photon and where in the run it belongs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhotonRecord {
+    /// The point hit, in world space; not the offset point at which the next ray starts.
+    pub position: Vec3,
+    /// The light's colour divided by the number of photons it sent out.
+    pub intensity: Vec3,
+    /// The unit direction back to where the photon came from.
+    pub to_light: Vec3,
+    /// The number of the emitted photon, counted from 0 over all lights.
+    pub photon: u32,
+    /// How often the photon had bounced before it came here: at least 1.
+    pub bounce: u16,
+    /// The mesh object hit, by its place in the model file, from 0.
+    pub surface: u16,
+}
+
+impl PhotonRecord {
+    /// What stands for a column that a list does not have: NaN, and the largest whole number.
+    pub const ABSENT: Self = Self {
+        position: Vec3::NAN,
+        intensity: Vec3::NAN,
+        to_light: Vec3::NAN,
+        photon: u32::MAX,
+        bounce: u16::MAX,
+        surface: u16::MAX,
+    };
+
+    /// The row in binary: nine f32, a u32 and two u16, little-endian, in the order of [`COLUMNS`].
+    pub fn to_row(&self) -> [u8; ROW_BYTES] {
+        let mut row = [0; ROW_BYTES];
+        let floats = [self.position, self.intensity, self.to_light].map(|vector| vector.to_array());
+        for (bytes, float) in row.chunks_exact_mut(4).zip(floats.as_flattened()) {
+            bytes.copy_from_slice(&float.to_le_bytes());
+        }
+        row[36..40].copy_from_slice(&self.photon.to_le_bytes());
+        row[40..42].copy_from_slice(&self.bounce.to_le_bytes());
+        row[42..44].copy_from_slice(&self.surface.to_le_bytes());
+        row
+    }
+
+    /// Sets column `column` of [`COLUMNS`], given as text or as any number; `None` when the value
+    /// does not fit the column.
+    pub(super) fn set(&mut self, column: usize, value: Value<'_>) -> Option<()> {
+        match column {
+            0..=2 => self.position[column] = value.float()?,
+            3..=5 => self.intensity[column - 3] = value.float()?,
+            6..=8 => self.to_light[column - 6] = value.float()?,
+            9 => self.photon = value.whole()?.try_into().ok()?,
+            10 => self.bounce = value.whole()?.try_into().ok()?,
+            _ => self.surface = value.whole()?.try_into().ok()?,
+        }
+        Some(())
+    }
+}
+
+/// A value as a file gives it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Value<'a> {
+    Text(&'a str),
+    Float(f32),
+    Double(f64),
+    Whole(i64),
+}
+
+impl Value<'_> {
+    fn float(self) -> Option<f32> {
+        match self {
+            Self::Text(text) => text.parse().ok().or_else(|| {
+                // What C and C++ libraries print besides "nan".
+                let text = text.to_ascii_lowercase();
+                let is_nan = text.contains("nan") || text.contains("#ind") || text.contains("#qnan");
+                is_nan.then_some(f32::NAN)
+            }),
+            Self::Float(float) => Some(float),
+            Self::Double(double) => Some(double as f32),
+            Self::Whole(whole) => Some(whole as f32),
+        }
+    }
+
+    fn whole(self) -> Option<i64> {
+        let from_double = |double: f64| {
+            let whole = double as i64;
+            (whole as f64 == double).then_some(whole)
+        };
+        match self {
+            Self::Text(text) => {
+                text.parse().ok().or_else(|| from_double(text.parse::<f64>().ok()?))
+            }
+            Self::Float(float) => from_double(f64::from(float)),
+            Self::Double(double) => from_double(double),
+            Self::Whole(whole) => Some(whole),
+        }
+    }
+}
+
+/// Which columns besides the position a list has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Columns {
+    /// `intensity_r`, `intensity_g` and `intensity_b`.
+    pub intensity: bool,
+    /// `to_light_x`, `to_light_y` and `to_light_z`.
+    pub to_light: bool,
+    /// `photon`.
+    pub photon: bool,
+    /// `bounce`.
+    pub bounce: bool,
+    /// `surface`.
+    pub surface: bool,
+}
+
+impl Columns {
+    /// Whether no column is missing.
+    pub fn all(&self) -> bool {
+        self.intensity && self.to_light && self.photon && self.bounce && self.surface
+    }
+
+    /// What a file whose columns are named `names` has: also, for each of its columns, its place in
+    /// [`COLUMNS`]. `Err` says what is missing or double.
+    pub(super) fn of<'a>(
+        names: impl Iterator<Item = &'a str>,
+    ) -> Result<(Self, Vec<Option<usize>>), String> {
+        let places: Vec<_> =
+            names.map(|name| COLUMNS.iter().position(|column| *column == name)).collect();
+        for (place, name) in COLUMNS.iter().enumerate() {
+            match places.iter().filter(|found| **found == Some(place)).count() {
+                0 if place < 3 => {
+                    return Err(format!("expected the columns x, y and z, found no '{name}'"));
+                }
+                0 | 1 => {}
+                _ => return Err(format!("expected each column once, found '{name}' twice")),
+            }
+        }
+        let has = |place: usize| places.contains(&Some(place));
+        let columns = Self {
+            intensity: has(3) && has(4) && has(5),
+            to_light: has(6) && has(7) && has(8),
+            photon: has(9),
+            bounce: has(10),
+            surface: has(11),
+        };
+        Ok((columns, places))
+    }
+}

@@ -1,0 +1,90 @@
+//! Tracing a list with all cores: by looking on while the renderer traces, piece by piece.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::record::PhotonRecord;
+use crate::rendering::photon::Photon;
+use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
+
+/// How many photons a thread traces before it takes the next piece.
+const PIECE: u64 = 8192;
+/// How many pieces are in memory at once while the pieces before them are consumed.
+const PIECES_IN_WAVE: u64 = 32;
+
+/// Traces the photons numbered `photons` on all threads of the current rayon pool and hands their
+/// records to `consume` in order, with the number of photons done so far. Memory does not grow with
+/// the number of photons.
+///
+/// # Errors
+/// The first error of `consume`, which ends the tracing.
+pub fn trace_list<E: Send>(
+    renderer: &PhotonMappingRenderer,
+    photons: Range<u64>,
+    mut consume: impl FnMut(&[PhotonRecord], u64) -> Result<(), E> + Send,
+) -> Result<(), E> {
+    let mut traced: Vec<(Range<u64>, Vec<PhotonRecord>)> = Vec::new();
+    let mut next = photons.start;
+    loop {
+        let wave_end = photons.end.min(next + PIECE * PIECES_IN_WAVE);
+        let pieces: Vec<_> = (next..wave_end)
+            .step_by(PIECE as usize)
+            .map(|start| start..wave_end.min(start + PIECE))
+            .collect();
+        let is_last = pieces.is_empty();
+        // One wave is written while the next one is traced.
+        let (consumed, wave) = rayon::join(
+            || {
+                traced.iter().try_for_each(|(piece, records)| {
+                    consume(records, piece.end - photons.start)
+                })
+            },
+            || {
+                pieces
+                    .into_par_iter()
+                    .map(|piece| (piece.clone(), trace_piece(renderer, piece)))
+                    .collect()
+            },
+        );
+        consumed?;
+        if is_last {
+            return Ok(());
+        }
+        traced = wave;
+        next = wave_end;
+    }
+}
+
+/// Traces the photons numbered `photons` on this thread.
+pub fn trace_piece(renderer: &PhotonMappingRenderer, photons: Range<u64>) -> Vec<PhotonRecord> {
+    let mut photon_map = Vec::new();
+    let mut records = Vec::new();
+    renderer.generic_photon_map_generation(&mut photon_map, photons, |photon, path, stored| {
+        for (bounce, (vertex, stored)) in path.iter().skip(2).zip(stored).enumerate() {
+            records.push(record(renderer, photon, bounce + 1, vertex, stored));
+        }
+    });
+    records
+}
+
+fn record(
+    renderer: &PhotonMappingRenderer,
+    photon: u64,
+    bounce: usize,
+    vertex: &PathVertex,
+    stored: &Photon,
+) -> PhotonRecord {
+    let PathVertex::Surface(state) = vertex else {
+        unreachable!("a path has one light, at its start");
+    };
+    let surface = state.primitive(&renderer.stored_scene).parent_mesh_object;
+    PhotonRecord {
+        position: stored.position,
+        intensity: stored.intensity,
+        to_light: stored.to_light_ray.ray_direction(),
+        photon: u32::try_from(photon).expect("a run has fewer than 2^32 photons"),
+        bounce: u16::try_from(bounce).expect("a photon bounces at most 1000 times"),
+        surface: u16::try_from(surface).expect("a scene has fewer than 2^16 mesh objects"),
+    }
+}

@@ -1,0 +1,3 @@
+//! Where photons come from.
+
+pub mod point_light;

@@ -1,0 +1,77 @@
+//! What is there: meshes, lights, the camera, and the question what a ray meets.
+
+pub mod camera;
+pub mod intersection_state;
+pub mod lights;
+pub mod material;
+pub mod mesh_object;
+pub mod obj;
+pub mod ray;
+pub mod triangle;
+
+use intersection_state::IntersectionState;
+use lights::point_light::PointLight;
+use mesh_object::MeshObject;
+use ray::Ray;
+use triangle::{ShearedRay, Triangle};
+
+/// The offset of a ray that leaves a surface, along the surface's normal, in scene units. Without
+/// it, rounding puts every other start just below the surface and the ray meets it again.
+pub const LARGE_EPSILON: f32 = 1e-5;
+
+/// Mesh objects, their triangles, and the lights, in world space (z up).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    mesh_objects: Vec<MeshObject>,
+    triangles: Vec<Triangle>,
+    lights: Vec<PointLight>,
+}
+
+impl Scene {
+    /// A scene of `triangles`, each of which names its mesh object by index.
+    pub fn new(
+        mesh_objects: Vec<MeshObject>,
+        triangles: Vec<Triangle>,
+        lights: Vec<PointLight>,
+    ) -> Self {
+        Self { mesh_objects, triangles, lights }
+    }
+
+    /// The mesh objects, in the model file's order.
+    pub fn mesh_objects(&self) -> &[MeshObject] {
+        &self.mesh_objects
+    }
+
+    /// The triangles, in the model file's order.
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// The lights, in the order in which they send out their photons.
+    pub fn lights(&self) -> &[PointLight] {
+        &self.lights
+    }
+
+    /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.
+    ///
+    /// With a `state`, it is filled with the closest hit; of two at the same distance, the one of
+    /// the triangle that comes first. Without one, any hit will do.
+    pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
+        let sheared_ray = ShearedRay::new(ray);
+        let mut hits = self.triangles.iter().enumerate().filter_map(|(index, triangle)| {
+            triangle.intersect(&sheared_ray).filter(|t| *t < ray.max_t).map(|t| (index, t))
+        });
+        let Some(state) = state else {
+            return hits.next().is_some();
+        };
+        let closest = hits.reduce(|best, hit| if hit.1 < best.1 { hit } else { best });
+        if let Some((index, t)) = closest {
+            *state = IntersectionState {
+                intersection_ray: *ray,
+                intersection_t: t,
+                intersected_primitive: index,
+            };
+        }
+        closest.is_some()
+    }
+}

@@ -1,0 +1,102 @@
+//! A triangle, and the test whether a ray meets it.
+
+use glam::Vec3;
+
+use super::ray::Ray;
+
+/// One triangle of a mesh, in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// The corners.
+    pub vertices: [Vec3; 3],
+    /// The unit normal of the model file, or of the plane where the file gives none. It is never
+    /// turned towards a ray.
+    pub normal: Vec3,
+    /// Which mesh object of the scene it belongs to: C++ `GetParentMeshObject()`.
+    pub parent_mesh_object: usize,
+    /// Which face of that mesh it is part of; a quad is one facet of two triangles.
+    pub facet: usize,
+}
+
+/// What a ray brings to every triangle test: the axis along which it runs farthest becomes z, and
+/// a shear makes it run along z alone.
+#[derive(Clone, Copy, Debug)]
+pub struct ShearedRay {
+    origin: Vec3,
+    axes: [usize; 3],
+    shear: Vec3,
+}
+
+impl ShearedRay {
+    /// Prepares `ray`, whose direction must not be zero.
+    pub fn new(ray: &Ray) -> Self {
+        let direction = ray.ray_direction();
+        let size = direction.abs();
+        let z = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        Self {
+            origin: ray.position(),
+            axes: [x, y, z],
+            shear: Vec3::new(
+                direction[x] / direction[z],
+                direction[y] / direction[z],
+                1.0 / direction[z],
+            ),
+        }
+    }
+
+    /// `vertex` as the ray sees it: x and y across the ray, z along it in units of the ray's t.
+    fn see(&self, vertex: Vec3) -> Vec3 {
+        let from_origin = vertex - self.origin;
+        let [x, y, z] = self.axes;
+        let depth = from_origin[z];
+        Vec3::new(
+            from_origin[x] - self.shear.x * depth,
+            from_origin[y] - self.shear.y * depth,
+            self.shear.z * depth,
+        )
+    }
+}
+
+impl Triangle {
+    /// The distance t > 0 at which `ray` meets the triangle, from either side; `None` when it
+    /// passes beside it, behind its start, or within its plane.
+    ///
+    /// The framework uses the test of Moller and Trumbore, which can let a ray slip between two
+    /// triangles that share an edge. This is the watertight test of Woop, Benthin and Wald
+    /// (*Watertight Ray/Triangle Intersection*, JCGT 2013): seen along the ray, the sign of each
+    /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
+    pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
+        let [a, b, c] = self.vertices.map(|vertex| ray.see(vertex));
+        let mut u = c.x * b.y - c.y * b.x;
+        let mut v = a.x * c.y - a.y * c.x;
+        let mut w = b.x * a.y - b.y * a.x;
+        if u == 0.0 || v == 0.0 || w == 0.0 {
+            // Rounding is monotonic: a difference of two rounded products has the right sign or is
+            // zero. In f64 the products are exact, so there even the zeros are true.
+            u = exact_edge(c, b);
+            v = exact_edge(a, c);
+            w = exact_edge(b, a);
+        }
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let determinant = u + v + w;
+        if determinant == 0.0 {
+            return None;
+        }
+        let t = (u * a.z + v * b.z + w * c.z) / determinant;
+        (t > 0.0).then_some(t)
+    }
+}
+
+fn exact_edge(p: Vec3, q: Vec3) -> f32 {
+    let (p, q) = (p.as_dvec3(), q.as_dvec3());
+    (p.x * q.y - p.y * q.x) as f32
+}

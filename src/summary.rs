@@ -1,0 +1,223 @@
+//! A run held against what is expected: photons by surface and bounce.
+
+use serde::Serialize;
+
+use crate::photon_list::record::PhotonRecord;
+
+/// Counts of stored photons, surface by bounce.
+#[derive(Clone, Debug)]
+pub struct Tally {
+    names: Vec<String>,
+    counts: Vec<Vec<u64>>,
+    /// The emitted photon whose records are coming in, and how many came beyond the bounces that
+    /// have a column of their own, by surface: their spread is not known in advance.
+    current: u32,
+    late_of_current: Vec<u64>,
+    late_squares: Vec<u64>,
+}
+
+/// Bounces up to this one have a column of their own in the table.
+const COLUMNS: usize = 3;
+
+impl Tally {
+    /// An empty tally for surfaces of these names.
+    pub fn new(names: impl IntoIterator<Item = String>) -> Self {
+        let names: Vec<_> = names.into_iter().collect();
+        let surfaces = names.len();
+        Self {
+            names,
+            counts: vec![Vec::new(); surfaces],
+            current: u32::MAX,
+            late_of_current: vec![0; surfaces + 1],
+            late_squares: vec![0; surfaces + 1],
+        }
+    }
+
+    /// Counts a record; those of one emitted photon must come one after another.
+    pub fn add(&mut self, record: &PhotonRecord) {
+        let (surface, bounce) = (usize::from(record.surface), usize::from(record.bounce));
+        let counts = &mut self.counts[surface];
+        if counts.len() < bounce {
+            counts.resize(bounce, 0);
+        }
+        counts[bounce - 1] += 1;
+        if bounce > COLUMNS {
+            if record.photon != self.current {
+                self.current = record.photon;
+                self.late_of_current.fill(0);
+            }
+            for group in [surface, self.names.len()] {
+                // The squares of 0, 1, 2, ... differ by 1, 3, 5, ...
+                self.late_squares[group] += 2 * self.late_of_current[group] + 1;
+                self.late_of_current[group] += 1;
+            }
+        }
+    }
+
+    /// All photons counted.
+    pub fn stored(&self) -> u64 {
+        self.counts.iter().flatten().sum()
+    }
+
+    /// The tally of `emitted` photons that bounced at most `max_bounces` times beside `expected`.
+    pub fn surfaces(
+        &self,
+        emitted: u64,
+        max_bounces: usize,
+        expected: Option<&Expected>,
+    ) -> Vec<SurfaceSummary> {
+        let groups = self.names.len();
+        (0..=groups)
+            .map(|group| {
+                let is_total = group == groups;
+                let members = if is_total { 0..groups } else { group..group + 1 };
+                let name = if is_total { "total".to_owned() } else { self.names[group].clone() };
+                let count = |bounce: usize| -> u64 {
+                    let of = |surface: usize| self.counts[surface].get(bounce - 1).copied();
+                    members.clone().filter_map(of).sum()
+                };
+                let law = expected.map(|expected| expected.group(members.clone(), max_bounces));
+                let last = members.clone().map(|s| self.counts[s].len()).max().unwrap_or(0);
+                let by_bounce = (1..=last.max(COLUMNS).min(max_bounces))
+                    .map(|bounce| {
+                        let probability =
+                            law.as_ref().map(|law| law.by_bounce.get(bounce - 1).copied());
+                        // One photon is stored at most once at its k-th bounce: a binomial.
+                        let law = probability.flatten().map(|p| (p, p * (1.0 - p)));
+                        Cell::new(bounce, count(bounce), emitted, law)
+                    })
+                    .collect();
+                let late = (COLUMNS + 1..=last).map(count).sum();
+                let late_law = law.as_ref().map(|law| {
+                    let mean = law.by_bounce.iter().skip(COLUMNS).sum();
+                    let measured = self.late_squares[group] as f64 / emitted as f64;
+                    (mean, measured - (late as f64 / emitted as f64).powi(2))
+                });
+                let stored_law = law.as_ref().map(|law| (law.by_bounce.iter().sum(), law.variance));
+                let late = Cell::new(COLUMNS + 1, late, emitted, late_law);
+                let stored = (1..=last).map(count).sum();
+                let all = Cell::new(0, stored, emitted, stored_law);
+                SurfaceSummary {
+                    name,
+                    stored,
+                    expected: all.expected,
+                    z: all.z,
+                    by_bounce,
+                    late,
+                }
+            })
+            .collect()
+    }
+}
+
+/// What one emitted photon is expected to store.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    /// Photons stored per emitted photon, surface by bounce.
+    pub by_surface_and_bounce: Vec<Vec<f64>>,
+    /// The covariance, per emitted photon, of what the surfaces store.
+    pub covariance: Vec<Vec<f64>>,
+}
+
+struct Law {
+    by_bounce: Vec<f64>,
+    variance: f64,
+}
+
+impl Expected {
+    fn group(&self, members: std::ops::Range<usize>, max_bounces: usize) -> Law {
+        let bounces = self.by_surface_and_bounce.iter().map(Vec::len).max().unwrap_or(0);
+        let by_bounce = (0..bounces.min(max_bounces))
+            .map(|bounce| members.clone().map(|s| self.by_surface_and_bounce[s][bounce]).sum())
+            .collect();
+        let pairs = members.clone().flat_map(|a| members.clone().map(move |b| (a, b)));
+        Law { by_bounce, variance: pairs.map(|(a, b)| self.covariance[a][b]).sum() }
+    }
+}
+
+/// One number of the table.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cell {
+    /// How often the photons had bounced.
+    pub bounce: usize,
+    /// How many were stored.
+    pub stored: u64,
+    /// How many were expected.
+    pub expected: Option<f64>,
+    /// By how many standard deviations they differ; none below five expected, where the normal law
+    /// does not hold.
+    pub z: Option<f64>,
+}
+
+impl Cell {
+    fn new(bounce: usize, stored: u64, emitted: u64, law: Option<(f64, f64)>) -> Self {
+        let expected = law.map(|(mean, _)| mean * emitted as f64);
+        let z = law.zip(expected).and_then(|((_, variance), expected)| {
+            let deviation = (variance * emitted as f64).sqrt();
+            (expected >= 5.0 && deviation > 0.0).then(|| (stored as f64 - expected) / deviation)
+        });
+        Self { bounce, stored, expected, z }
+    }
+}
+
+/// One line of the table.
+#[derive(Clone, Debug, Serialize)]
+pub struct SurfaceSummary {
+    /// The mesh object's name, or `total`.
+    pub name: String,
+    /// How many photons were stored on it.
+    pub stored: u64,
+    /// How many were expected.
+    pub expected: Option<f64>,
+    /// By how many standard deviations they differ. The photons of one path are correlated, so the
+    /// deviation comes from the covariance of whole paths.
+    pub z: Option<f64>,
+    /// The same for each bounce, from the first on.
+    pub by_bounce: Vec<Cell>,
+    /// Those that bounced more often than the table has columns, together.
+    #[serde(skip)]
+    pub late: Cell,
+}
+
+/// The table as text, a line for every surface and one for the total.
+pub fn table(surfaces: &[SurfaceSummary]) -> String {
+    let mut heads = vec!["surface".to_owned()];
+    heads.extend((1..=COLUMNS).map(|bounce| format!("bounce {bounce}")));
+    heads.extend([format!("bounce {}+", COLUMNS + 1), "stored".to_owned()]);
+    let mut rows = vec![heads];
+    for surface in surfaces {
+        let mut row = vec![surface.name.clone()];
+        let whole = Cell {
+            bounce: 0,
+            stored: surface.stored,
+            expected: surface.expected,
+            z: surface.z,
+        };
+        let shown = surface.by_bounce.iter().take(COLUMNS).chain([&surface.late, &whole]);
+        row.extend(shown.map(|cell| {
+            let expected = cell.expected.map(|expected| format!(" / {expected:.1}"));
+            let z = cell.z.map(|z| format!(" ({z:+.1})"));
+            format!("{}{}{}", cell.stored, expected.unwrap_or_default(), z.unwrap_or_default())
+        }));
+        rows.push(row);
+    }
+    align(&rows)
+}
+
+/// Sets `rows` in columns, the first flush left, the others flush right.
+fn align(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        rows.iter().filter_map(|row| row.get(column)).map(String::len).max().unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, width))| {
+            if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+        });
+        text += cells.collect::<Vec<_>>().join("  ").trim_end();
+        text += "\n";
+    }
+    text
+}
