@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use crate::rendering::sampling::TangentBasis;
+use crate::rendering::reading::Reading;
 use crate::scene::Scene;
 use crate::scene::camera::PerspectiveCamera;
 use crate::scene::lights::point_light::PointLight;
@@ -53,7 +53,7 @@ pub fn create_renderer(scene: Scene) -> PhotonMappingRenderer {
         photon_count: PHOTON_COUNT,
         max_photon_bounces: MAX_PHOTON_BOUNCES,
         seed: SEED,
-        tangent_basis: TangentBasis::Normalised,
+        reading: Reading::REFERENCE,
         diffuse_map: PhotonMap::default(),
     }
 }

@@ -97,14 +97,7 @@ impl Tally {
                 let late = Cell::new(COLUMNS + 1, late, emitted, late_law);
                 let stored = (1..=last).map(count).sum();
                 let all = Cell::new(0, stored, emitted, stored_law);
-                SurfaceSummary {
-                    name,
-                    stored,
-                    expected: all.expected,
-                    z: all.z,
-                    by_bounce,
-                    late,
-                }
+                SurfaceSummary { name, stored, expected: all.expected, z: all.z, by_bounce, late }
             })
             .collect()
     }
@@ -187,12 +180,8 @@ pub fn table(surfaces: &[SurfaceSummary]) -> String {
     let mut rows = vec![heads];
     for surface in surfaces {
         let mut row = vec![surface.name.clone()];
-        let whole = Cell {
-            bounce: 0,
-            stored: surface.stored,
-            expected: surface.expected,
-            z: surface.z,
-        };
+        let whole =
+            Cell { bounce: 0, stored: surface.stored, expected: surface.expected, z: surface.z };
         let shown = surface.by_bounce.iter().take(COLUMNS).chain([&surface.late, &whole]);
         row.extend(shown.map(|cell| {
             let expected = cell.expected.map(|expected| format!(" / {expected:.1}"));

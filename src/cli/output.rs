@@ -53,7 +53,8 @@ impl OutputFile {
         // The lock is held from before the file exists until it is known, so that no interrupt
         // falls in between.
         let mut unfinished = UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        let file = builder.tempfile_in(folder).map_err(|error| CliError::unwritable(path, error))?;
+        let file =
+            builder.tempfile_in(folder).map_err(|error| CliError::unwritable(path, error))?;
         unfinished.push(file.path().to_owned());
         Ok(Self { path: path.to_owned(), file })
     }

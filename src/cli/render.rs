@@ -20,7 +20,7 @@ use crate::photon_list::writer::{Format, ListHash, ListWriter};
 use crate::rendering::image_writer::take_picture;
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use crate::rendering::sampling::TangentBasis;
+use crate::rendering::reading::Reading;
 use crate::scene::lights::point_light::PointLight;
 use crate::scene::{Scene, obj};
 use crate::summary::{SurfaceSummary, Tally, table};
@@ -134,7 +134,7 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     renderer.photon_count = arguments.photons;
     renderer.max_photon_bounces = arguments.max_bounces;
     if arguments.letter_of_the_handout {
-        renderer.tangent_basis = TangentBasis::LetterOfTheHandout;
+        renderer.reading = Reading::LETTER_OF_THE_HANDOUT;
     }
     let mut picture_file = OutputFile::create(&arguments.out.join("assignment8.png"))?;
     let (mut summary, list_file) = match &arguments.photons_from {

@@ -31,11 +31,10 @@ pub fn light(text: &str) -> Result<PointLight, String> {
         .split(',')
         .map(|number| number.trim().parse().ok().filter(|number: &f32| number.abs() <= 1e9))
         .collect();
-    let is_color = |color: &[f32]| color.iter().all(|c| *c >= 0.0) && color.iter().any(|c| *c > 0.0);
+    let is_color =
+        |color: &[f32]| color.iter().all(|c| *c >= 0.0) && color.iter().any(|c| *c > 0.0);
     match numbers.as_deref() {
-        Some([x, y, z]) => {
-            Ok(PointLight { position: Vec3::new(*x, *y, *z), color: Vec3::ONE })
-        }
+        Some([x, y, z]) => Ok(PointLight { position: Vec3::new(*x, *y, *z), color: Vec3::ONE }),
         Some([x, y, z, color @ ..]) if color.len() == 3 && is_color(color) => {
             Ok(PointLight { position: Vec3::new(*x, *y, *z), color: Vec3::from_slice(color) })
         }

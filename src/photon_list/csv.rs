@@ -37,14 +37,15 @@ pub(super) fn read(
     let mut next_line = |line: &mut String| {
         line.clear();
         number += 1;
-        let length = input.by_ref().take(LONGEST_LINE).read_line(line).map_err(|error| {
-            match error.kind() {
-                std::io::ErrorKind::InvalidData => {
-                    ListError::malformed(path, format!("line {number}: expected text"))
+        let length =
+            input.by_ref().take(LONGEST_LINE).read_line(line).map_err(|error| {
+                match error.kind() {
+                    std::io::ErrorKind::InvalidData => {
+                        ListError::malformed(path, format!("line {number}: expected text"))
+                    }
+                    _ => ListError::unreadable(path, error),
                 }
-                _ => ListError::unreadable(path, error),
-            }
-        })?;
+            })?;
         if length as u64 == LONGEST_LINE {
             let message = format!("line {number}: expected at most {LONGEST_LINE} bytes in a line");
             return Err(ListError::malformed(path, message));

@@ -183,7 +183,9 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
             ["property", ..] if !in_vertex => {}
             ["end_header"] => {
                 let (Some(binary), Some(count)) = (binary, count) else {
-                    return Err(error("expected 'format' and 'element vertex' before 'end_header'"));
+                    return Err(error(
+                        "expected 'format' and 'element vertex' before 'end_header'",
+                    ));
                 };
                 return Ok(Header { binary, count, properties });
             }

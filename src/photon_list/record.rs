@@ -92,7 +92,8 @@ impl Value<'_> {
             Self::Text(text) => text.parse().ok().or_else(|| {
                 // What C and C++ libraries print besides "nan".
                 let text = text.to_ascii_lowercase();
-                let is_nan = text.contains("nan") || text.contains("#ind") || text.contains("#qnan");
+                let is_nan =
+                    text.contains("nan") || text.contains("#ind") || text.contains("#qnan");
                 is_nan.then_some(f32::NAN)
             }),
             Self::Float(float) => Some(float),

@@ -36,9 +36,9 @@ pub fn trace_list<E: Send>(
         // One wave is written while the next one is traced.
         let (consumed, wave) = rayon::join(
             || {
-                traced.iter().try_for_each(|(piece, records)| {
-                    consume(records, piece.end - photons.start)
-                })
+                traced
+                    .iter()
+                    .try_for_each(|(piece, records)| consume(records, piece.end - photons.start))
             },
             || {
                 pieces

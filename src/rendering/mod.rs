@@ -5,4 +5,5 @@ pub mod image_writer;
 pub mod photon;
 pub mod photon_map;
 pub mod photon_mapping_renderer;
+pub mod reading;
 pub mod sampling;

@@ -71,11 +71,12 @@ impl PhotonMap {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
                     let bucket = bucket([x, y, z], buckets);
-                    let candidates =
-                        &self.positions[self.starts[bucket] as usize..self.starts[bucket + 1] as usize];
-                    if candidates.iter().any(|photon| {
-                        (*photon - point).abs().max_element() <= radius
-                    }) {
+                    let candidates = &self.positions
+                        [self.starts[bucket] as usize..self.starts[bucket + 1] as usize];
+                    if candidates
+                        .iter()
+                        .any(|photon| (*photon - point).abs().max_element() <= radius)
+                    {
                         return true;
                     }
                 }

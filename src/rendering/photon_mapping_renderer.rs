@@ -7,12 +7,13 @@ use glam::Vec3;
 use super::backward_renderer::BackwardRenderer;
 use super::photon::Photon;
 use super::photon_map::PhotonMap;
-use super::sampling::{TangentBasis, sample_hemisphere, tangent_frame};
+use super::reading::Reading;
+use super::sampling::{sample_hemisphere, tangent_frame};
 use crate::random::photon_random;
+use crate::scene::Scene;
 use crate::scene::intersection_state::IntersectionState;
 use crate::scene::lights::point_light::PointLight;
 use crate::scene::ray::Ray;
-use crate::scene::{LARGE_EPSILON, Scene};
 
 /// Half the edge of the cube around a point in which a photon turns the point red, in scene units.
 pub const PHOTON_DOT_RADIUS: f32 = 0.003;
@@ -38,8 +39,8 @@ pub struct PhotonMappingRenderer {
     pub max_photon_bounces: i32,
     /// The key of all random numbers.
     pub seed: u64,
-    /// How the tangent frame is built.
-    pub tangent_basis: TangentBasis,
+    /// How the handout is read where it leaves something open.
+    pub reading: Reading,
     /// The photons stored by [`Self::initialize_renderer`].
     pub diffuse_map: PhotonMap,
 }
@@ -66,7 +67,8 @@ impl PhotonMappingRenderer {
     ) {
         let mut path = Vec::new();
         let mut first_of_light = 0;
-        for (light, light_photons) in self.stored_scene.lights().iter().zip(self.photons_per_light())
+        for (light, light_photons) in
+            self.stored_scene.lights().iter().zip(self.photons_per_light())
         {
             let light_intensity = light.color / light_photons as f32;
             let of_light = first_of_light..first_of_light + light_photons;
@@ -125,8 +127,8 @@ impl PhotonMappingRenderer {
         path.push(PathVertex::Surface(state));
 
         // Photon Scattering/Absorption
-        let hit_mesh_object =
-            &self.stored_scene.mesh_objects()[state.primitive(&self.stored_scene).parent_mesh_object];
+        let hit_mesh_object = &self.stored_scene.mesh_objects()
+            [state.primitive(&self.stored_scene).parent_mesh_object];
         let diffuse_response = hit_mesh_object.material.base_diffuse_reflection();
         let probability_of_reflection = diffuse_response.max_element();
         if rand() >= probability_of_reflection {
@@ -140,13 +142,13 @@ impl PhotonMappingRenderer {
 
         // Hemisphere Ray Transformation
         let normal = state.compute_normal(&self.stored_scene);
-        let tangent_to_world = tangent_frame(normal, self.tangent_basis);
+        let tangent_to_world = tangent_frame(normal, &self.reading);
         let world_direction = (tangent_to_world * tangent_space_direction).normalize();
 
         // The handout names no offset. Without one, two in five scattered photons would hit the
         // triangle they leave, so they start where the framework starts its shadow rays.
-        let diffuse_reflection_ray =
-            Ray::new(intersection_point + LARGE_EPSILON * normal, world_direction);
+        let start = self.reading.offset.start(intersection_point, normal, world_direction);
+        let diffuse_reflection_ray = Ray::new(start, world_direction);
         self.trace_photon(
             photon_map,
             &diffuse_reflection_ray,

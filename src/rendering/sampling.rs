@@ -2,20 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-/// How close to 1 the absolute dot product of the normal and the x axis may come before the y axis
-/// takes the x axis's place.
-pub const FALLBACK_THRESHOLD: f32 = 0.99;
-
-/// Whether the tangent and bitangent of equations (7) and (8) are normalised.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum TangentBasis {
-    /// Both have length 1: the scattered directions follow the cosine.
-    #[default]
-    Normalised,
-    /// As the equations stand: t = n x (1, 0, 0) is shorter than 1 unless n is at a right angle to
-    /// the x axis, and the lobe of directions is narrower than the cosine's.
-    LetterOfTheHandout,
-}
+use super::reading::{Reading, TangentBasis};
 
 /// A direction over the z axis, distributed as the cosine of its angle to it (density z / pi over
 /// solid angle), from two numbers in [0, 1). Equations (2) to (6).
@@ -33,16 +20,17 @@ pub fn sample_hemisphere(u1: f32, u2: f32) -> Vec3 {
 ///
 /// With [`TangentBasis::Normalised`] the columns are orthonormal for every unit normal, and
 /// t x b = n always: the frame is right-handed.
-pub fn tangent_frame(normal: Vec3, basis: TangentBasis) -> Mat3 {
+pub fn tangent_frame(normal: Vec3, reading: &Reading) -> Mat3 {
     // The absolute value: the right wall's normal is (-1, 0, 0), whose dot product with the x axis
     // is -1. Without it t and b would be zero there.
-    let axis = if normal.dot(Vec3::X).abs() > FALLBACK_THRESHOLD { Vec3::Y } else { Vec3::X };
+    let is_parallel = normal.dot(Vec3::X).abs() > reading.fallback_threshold;
+    let axis = if is_parallel { reading.fallback_axis } else { Vec3::X };
     let mut tangent = normal.cross(axis);
-    if basis == TangentBasis::Normalised {
+    if reading.tangent_basis == TangentBasis::Normalised {
         tangent = tangent.normalize();
     }
     let mut bitangent = normal.cross(tangent);
-    if basis == TangentBasis::Normalised {
+    if reading.tangent_basis == TangentBasis::Normalised {
         bitangent = bitangent.normalize();
     }
     Mat3::from_cols(tangent, bitangent, normal)

@@ -1,0 +1,66 @@
+//! How the handout is read where it leaves something open.
+
+use glam::Vec3;
+
+use crate::scene::LARGE_EPSILON;
+
+/// Whether the tangent and bitangent of equations (7) and (8) are normalised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentBasis {
+    /// Both have length 1: the scattered directions follow the cosine.
+    Normalised,
+    /// As the equations stand: t = n x (1, 0, 0) is shorter than 1 unless n is at a right angle to
+    /// the x axis, and the lobe of directions is narrower than the cosine's.
+    LetterOfTheHandout,
+}
+
+/// Where the scattered ray starts, seen from the point hit. Lengths are in scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Offset {
+    /// At the point itself.
+    None,
+    /// This far along the normal.
+    AlongNormal(f32),
+    /// This far along the scattered direction.
+    AlongDirection(f32),
+}
+
+impl Offset {
+    /// The start of a ray that leaves `point`, where the unit normal is `normal`, along the unit
+    /// vector `direction`.
+    pub fn start(self, point: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
+        match self {
+            Self::None => point,
+            Self::AlongNormal(length) => point + length * normal,
+            Self::AlongDirection(length) => point + length * direction,
+        }
+    }
+}
+
+/// One reading of the handout.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Whether t and b are normalised.
+    pub tangent_basis: TangentBasis,
+    /// How close to 1 the absolute dot product of the normal and the x axis may come before
+    /// `fallback_axis` takes the x axis's place.
+    pub fallback_threshold: f32,
+    /// The unit vector that takes the x axis's place.
+    pub fallback_axis: Vec3,
+    /// Where the scattered ray starts.
+    pub offset: Offset,
+}
+
+impl Reading {
+    /// The reading of the reference: normalised, with the framework's offset of shadow rays.
+    pub const REFERENCE: Self = Self {
+        tangent_basis: TangentBasis::Normalised,
+        fallback_threshold: 0.99,
+        fallback_axis: Vec3::Y,
+        offset: Offset::AlongNormal(LARGE_EPSILON),
+    };
+
+    /// As the reference, but with t and b as equations (7) and (8) have them.
+    pub const LETTER_OF_THE_HANDOUT: Self =
+        Self { tangent_basis: TangentBasis::LetterOfTheHandout, ..Self::REFERENCE };
+}
