@@ -4,8 +4,10 @@
 //! the renderer, [`scene::lights::point_light`] sends photons out, and
 //! [`rendering::photon_mapping_renderer`] follows, stores and shows them. `ASSIGNMENT.md` reads
 //! along. The rooms above look on and are not needed to understand it: [`photon_list`] keeps exact
-//! lists, [`summary`] holds a run against what is expected, [`cli`] is the command line.
+//! lists, [`accuracy`] computes what is expected without tracing, [`summary`] holds a run against it, and
+//! [`cli`] is the command line.
 
+pub mod accuracy;
 pub mod assignment8;
 pub mod cli;
 pub mod photon_list;
@@ -13,3 +15,4 @@ pub mod random;
 pub mod rendering;
 pub mod scene;
 pub mod summary;
+pub mod text_table;

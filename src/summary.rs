@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
+use crate::accuracy::Bounded;
+use crate::accuracy::table::ExpectedTable;
 use crate::photon_list::record::PhotonRecord;
+use crate::text_table::align;
 
 /// Counts of stored photons, surface by bounce.
 #[derive(Clone, Debug)]
@@ -59,15 +62,16 @@ impl Tally {
         self.counts.iter().flatten().sum()
     }
 
-    /// The tally of `emitted` photons that bounced at most `max_bounces` times beside `expected`.
+    /// The tally of `emitted` photons that bounced at most `max_bounces` times beside `expected`:
+    /// a line for every surface, and the total.
     pub fn surfaces(
         &self,
         emitted: u64,
         max_bounces: usize,
-        expected: Option<&Expected>,
-    ) -> Vec<SurfaceSummary> {
+        expected: Option<&ExpectedTable>,
+    ) -> (Vec<SurfaceSummary>, SurfaceSummary) {
         let groups = self.names.len();
-        (0..=groups)
+        let mut lines: Vec<_> = (0..=groups)
             .map(|group| {
                 let is_total = group == groups;
                 let members = if is_total { 0..groups } else { group..group + 1 };
@@ -76,56 +80,56 @@ impl Tally {
                     let of = |surface: usize| self.counts[surface].get(bounce - 1).copied();
                     members.clone().filter_map(of).sum()
                 };
-                let law = expected.map(|expected| expected.group(members.clone(), max_bounces));
+                let law = expected.map(|expected| law(expected, members.clone(), max_bounces));
                 let last = members.clone().map(|s| self.counts[s].len()).max().unwrap_or(0);
-                let by_bounce = (1..=last.max(COLUMNS).min(max_bounces))
+                let by_bounce = (1..=last.max(COLUMNS))
                     .map(|bounce| {
-                        let probability =
-                            law.as_ref().map(|law| law.by_bounce.get(bounce - 1).copied());
+                        let mean = law
+                            .as_ref()
+                            .map(|law| law.by_bounce.get(bounce - 1).copied().unwrap_or_default());
                         // One photon is stored at most once at its k-th bounce: a binomial.
-                        let law = probability.flatten().map(|p| (p, p * (1.0 - p)));
-                        Cell::new(bounce, count(bounce), emitted, law)
+                        let variance = mean.map(|mean| mean.value * (1.0 - mean.value));
+                        Cell::new(bounce, count(bounce), emitted, mean, variance)
                     })
                     .collect();
-                let late = (COLUMNS + 1..=last).map(count).sum();
-                let late_law = law.as_ref().map(|law| {
-                    let mean = law.by_bounce.iter().skip(COLUMNS).sum();
-                    let measured = self.late_squares[group] as f64 / emitted as f64;
-                    (mean, measured - (late as f64 / emitted as f64).powi(2))
-                });
-                let stored_law = law.as_ref().map(|law| (law.by_bounce.iter().sum(), law.variance));
-                let late = Cell::new(COLUMNS + 1, late, emitted, late_law);
-                let stored = (1..=last).map(count).sum();
-                let all = Cell::new(0, stored, emitted, stored_law);
+                let sum = |first: usize| (first..=last).map(count).sum::<u64>();
+                let mean = |first: usize| {
+                    law.as_ref().map(|law| law.by_bounce.iter().skip(first - 1).copied().sum())
+                };
+                let measured = self.late_squares[group] as f64 / emitted as f64
+                    - (sum(COLUMNS + 1) as f64 / emitted as f64).powi(2);
+                let first = COLUMNS + 1;
+                let late = Cell::new(first, sum(first), emitted, mean(first), Some(measured));
+                let variance = law.as_ref().and_then(|law| law.variance);
+                let all = Cell::new(0, sum(1), emitted, mean(1), variance);
+                let stored = all.stored;
                 SurfaceSummary { name, stored, expected: all.expected, z: all.z, by_bounce, late }
             })
-            .collect()
+            .collect();
+        let total = lines.pop().expect("the last line is the total");
+        (lines, total)
     }
-}
-
-/// What one emitted photon is expected to store.
-#[derive(Clone, Debug)]
-pub struct Expected {
-    /// Photons stored per emitted photon, surface by bounce.
-    pub by_surface_and_bounce: Vec<Vec<f64>>,
-    /// The covariance, per emitted photon, of what the surfaces store.
-    pub covariance: Vec<Vec<f64>>,
 }
 
 struct Law {
-    by_bounce: Vec<f64>,
-    variance: f64,
+    /// Expected photons stored per emitted photon, and a bound on the error, from bounce 1 on.
+    by_bounce: Vec<Bounded>,
+    /// Variance of all of them together; unknown where paths are cut short.
+    variance: Option<f64>,
 }
 
-impl Expected {
-    fn group(&self, members: std::ops::Range<usize>, max_bounces: usize) -> Law {
-        let bounces = self.by_surface_and_bounce.iter().map(Vec::len).max().unwrap_or(0);
-        let by_bounce = (0..bounces.min(max_bounces))
-            .map(|bounce| members.clone().map(|s| self.by_surface_and_bounce[s][bounce]).sum())
-            .collect();
-        let pairs = members.clone().flat_map(|a| members.clone().map(move |b| (a, b)));
-        Law { by_bounce, variance: pairs.map(|(a, b)| self.covariance[a][b]).sum() }
-    }
+fn law(expected: &ExpectedTable, members: std::ops::Range<usize>, max_bounces: usize) -> Law {
+    let bounces = expected.total.hits.len().saturating_sub(1);
+    let cell = |surface: usize, bounce: usize| {
+        let row = &expected.surfaces[surface];
+        Bounded { value: row.hits[bounce], error: row.error[bounce] }
+    };
+    let by_bounce = (1..=bounces.min(max_bounces))
+        .map(|bounce| members.clone().map(|surface| cell(surface, bounce)).sum())
+        .collect();
+    let pairs = members.clone().flat_map(|a| members.clone().map(move |b| (a, b)));
+    let variance = pairs.map(|(a, b)| expected.covariance[a][b]).sum();
+    Law { by_bounce, variance: (max_bounces >= bounces).then_some(variance) }
 }
 
 /// One number of the table.
@@ -143,10 +147,18 @@ pub struct Cell {
 }
 
 impl Cell {
-    fn new(bounce: usize, stored: u64, emitted: u64, law: Option<(f64, f64)>) -> Self {
-        let expected = law.map(|(mean, _)| mean * emitted as f64);
-        let z = law.zip(expected).and_then(|((_, variance), expected)| {
-            let deviation = (variance * emitted as f64).sqrt();
+    fn new(
+        bounce: usize,
+        stored: u64,
+        emitted: u64,
+        mean: Option<Bounded>,
+        variance: Option<f64>,
+    ) -> Self {
+        let photons = emitted as f64;
+        let expected = mean.map(|mean| mean.value * photons);
+        let z = mean.zip(variance).and_then(|(mean, variance)| {
+            let deviation = (variance * photons + (mean.error * photons).powi(2)).sqrt();
+            let expected = mean.value * photons;
             (expected >= 5.0 && deviation > 0.0).then(|| (stored as f64 - expected) / deviation)
         });
         Self { bounce, stored, expected, z }
@@ -191,22 +203,4 @@ pub fn table(surfaces: &[SurfaceSummary]) -> String {
         rows.push(row);
     }
     align(&rows)
-}
-
-/// Sets `rows` in columns, the first flush left, the others flush right.
-fn align(rows: &[Vec<String>]) -> String {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(String::len).max().unwrap_or(0)
-    };
-    let widths: Vec<_> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, width))| {
-            if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
-        });
-        text += cells.collect::<Vec<_>>().join("  ").trim_end();
-        text += "\n";
-    }
-    text
 }

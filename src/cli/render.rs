@@ -12,6 +12,8 @@ use serde::Serialize;
 use super::error::{CliError, print};
 use super::output::OutputFile;
 use super::values;
+use crate::accuracy::Accuracy;
+use crate::accuracy::table::ExpectedTable;
 use crate::assignment8;
 use crate::photon_list::reader;
 use crate::photon_list::record::PhotonRecord;
@@ -22,8 +24,12 @@ use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
 use crate::scene::lights::point_light::PointLight;
+use crate::scene::triangle::Triangle;
 use crate::scene::{Scene, obj};
 use crate::summary::{SurfaceSummary, Tally, table};
+
+/// Expecting takes seconds at this many faces, and grows with their square; tracing does not.
+const MOST_FACETS_TO_EXPECT: usize = 40;
 
 /// The options of `render`.
 #[derive(Debug, Args)]
@@ -98,6 +104,7 @@ struct Summary {
     sha256: Option<String>,
     seconds: Seconds,
     surfaces: Vec<SurfaceSummary>,
+    total: Option<SurfaceSummary>,
     files: Vec<PathBuf>,
 }
 
@@ -136,11 +143,15 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     if arguments.letter_of_the_handout {
         renderer.reading = Reading::LETTER_OF_THE_HANDOUT;
     }
+    let photons = match arguments.photons_from {
+        Some(_) => 0..0,
+        None => photons(arguments, &renderer)?,
+    };
     let mut picture_file = OutputFile::create(&arguments.out.join("assignment8.png"))?;
     let (mut summary, list_file) = match &arguments.photons_from {
         Some(path) => (read_list(arguments, path, &mut renderer)?, None),
         None => {
-            let (summary, file) = trace(arguments, &mut renderer)?;
+            let (summary, file) = trace(arguments, &mut renderer, photons)?;
             (summary, Some(file))
         }
     };
@@ -175,12 +186,11 @@ fn scene(arguments: &RenderArgs) -> Result<Scene, CliError> {
     Ok(Scene::new(model.mesh_objects, model.triangles, arguments.light.clone()))
 }
 
-/// Traces the list into a file that is not yet in its place, and fills the photon map.
-fn trace(
+/// The photons to trace.
+fn photons(
     arguments: &RenderArgs,
-    renderer: &mut PhotonMappingRenderer,
-) -> Result<(Summary, OutputFile), CliError> {
-    let start = Instant::now();
+    renderer: &PhotonMappingRenderer,
+) -> Result<Range<u64>, CliError> {
     let emitted = renderer.emitted();
     let photons = arguments.range.clone().unwrap_or(0..emitted);
     if photons.end > emitted {
@@ -189,6 +199,16 @@ fn trace(
             "--range {start}..{end}: expected an end of at most {emitted}, the photons of the run"
         )));
     }
+    Ok(photons)
+}
+
+/// Traces the list into a file that is not yet in its place, and fills the photon map.
+fn trace(
+    arguments: &RenderArgs,
+    renderer: &mut PhotonMappingRenderer,
+    photons: Range<u64>,
+) -> Result<(Summary, OutputFile), CliError> {
+    let start = Instant::now();
     let (name, format) = match arguments.format {
         FormatName::Ply => ("photons.ply", Format::Ply),
         FormatName::Csv => ("photons.csv", Format::Csv),
@@ -216,13 +236,17 @@ fn trace(
     progress.finish_and_clear();
     renderer.diffuse_map = PhotonMap::new(positions);
     let emitted = photons.end - photons.start;
+    let expected = expected(arguments, renderer, &photons);
+    let max_bounces = renderer.max_photon_bounces as usize;
+    let (surfaces, total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
     let summary = Summary {
         seed: Some(renderer.seed),
         emitted: Some(emitted),
         stored: tally.stored(),
         sha256: Some(hash.hex()),
         seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
-        surfaces: tally.surfaces(emitted, renderer.max_photon_bounces as usize, None),
+        surfaces,
+        total: Some(total),
         files: Vec::new(),
     };
     Ok((summary, file))
@@ -251,19 +275,54 @@ fn read_list(
     progress.finish_and_clear();
     let stored = positions.len() as u64;
     renderer.diffuse_map = PhotonMap::new(positions);
+    let (surfaces, total) = match columns.surface && columns.bounce {
+        true => {
+            let (surfaces, total) = tally.surfaces(stored, 1000, None);
+            (surfaces, Some(total))
+        }
+        false => (Vec::new(), None),
+    };
     Ok(Summary {
         seed: None,
         emitted: None,
         stored,
         sha256: columns.all().then(|| hash.hex()),
         seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
-        surfaces: if columns.surface && columns.bounce {
-            tally.surfaces(stored, 1000, None)
-        } else {
-            Vec::new()
-        },
+        surfaces,
+        total,
         files: Vec::new(),
     })
+}
+
+/// What the photons of a run are expected to do, where that is known or soon computed.
+fn expected(
+    arguments: &RenderArgs,
+    renderer: &PhotonMappingRenderer,
+    photons: &Range<u64>,
+) -> Option<ExpectedTable> {
+    let scene = &renderer.stored_scene;
+    if renderer.reading != Reading::REFERENCE {
+        return None;
+    }
+    if arguments.scene.is_none() {
+        return Some(ExpectedTable::of_assignment8());
+    }
+    (facets(scene) <= MOST_FACETS_TO_EXPECT).then(|| {
+        let mut first = 0;
+        let in_range = renderer.photons_per_light().into_iter().map(|count| {
+            let of_light = first..first + count;
+            first = of_light.end;
+            let end = of_light.end.min(photons.end);
+            end.saturating_sub(of_light.start.max(photons.start))
+        });
+        ExpectedTable::compute(scene, &in_range.collect::<Vec<_>>(), Accuracy::Quick)
+    })
+}
+
+/// How many faces the model has.
+fn facets(scene: &Scene) -> usize {
+    let face = |triangle: &Triangle| (triangle.parent_mesh_object, triangle.facet);
+    scene.triangles().chunk_by(|a, b| face(a) == face(b)).count()
 }
 
 fn tally(scene: &Scene) -> Tally {
@@ -303,7 +362,8 @@ fn text(summary: &Summary) -> String {
         text += &format!("{} photons read\n\n", summary.stored);
     }
     if !summary.surfaces.is_empty() {
-        text += &table(&summary.surfaces);
+        let lines: Vec<_> = summary.surfaces.iter().chain(&summary.total).cloned().collect();
+        text += &table(&lines);
         if summary.surfaces.iter().any(|surface| surface.expected.is_some()) {
             text += "stored / expected (difference in standard deviations)\n";
         }

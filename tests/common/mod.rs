@@ -1,0 +1,83 @@
+//! Scenes and lists that several tests use.
+#![allow(dead_code, reason = "no test uses all of them")]
+
+use glam::Vec3;
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::record::PhotonRecord;
+use photon_mapping::photon_list::trace::trace_list;
+use photon_mapping::photon_list::writer::ListHash;
+use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use photon_mapping::scene::lights::point_light::PointLight;
+use photon_mapping::scene::{Scene, obj};
+
+/// A renderer of the handout's scene.
+pub fn handout(seed: u64, photon_count: u64) -> PhotonMappingRenderer {
+    let renderer = assignment8::create_renderer(assignment8::create_scene());
+    PhotonMappingRenderer { seed, photon_count, ..renderer }
+}
+
+/// A renderer of a closed cube from -1 to 1 whose walls all reflect `albedo`, with a light in its
+/// centre; the walls are named after the axis they cross.
+pub fn closed_cube(albedo: f32, seed: u64, photon_count: u64) -> PhotonMappingRenderer {
+    let model = obj::parse(CLOSED_CUBE, |_| Ok(format!("newmtl wall\nKd {albedo} 0 0\n")))
+        .expect("the cube is well formed");
+    let light = PointLight { position: Vec3::ZERO, color: Vec3::ONE };
+    let scene = Scene::new(model.mesh_objects, model.triangles, vec![light]);
+    let renderer = assignment8::create_renderer(scene);
+    PhotonMappingRenderer { seed, photon_count, ..renderer }
+}
+
+const CLOSED_CUBE: &str = "
+mtllib cube.mtl
+v -1 -1 -1
+v  1 -1 -1
+v  1  1 -1
+v -1  1 -1
+v -1 -1  1
+v  1 -1  1
+v  1  1  1
+v -1  1  1
+vn 1 0 0
+vn -1 0 0
+vn 0 1 0
+vn 0 -1 0
+vn 0 0 1
+vn 0 0 -1
+usemtl wall
+o low_x
+f 1//1 4//1 8//1 5//1
+o high_x
+f 2//2 6//2 7//2 3//2
+o low_y
+f 1//3 5//3 6//3 2//3
+o high_y
+f 4//4 3//4 7//4 8//4
+o low_z
+f 1//5 2//5 3//5 4//5
+o high_z
+f 5//6 8//6 7//6 6//6
+";
+
+/// The whole list of a run.
+pub fn list(renderer: &PhotonMappingRenderer) -> Vec<PhotonRecord> {
+    let mut list = Vec::new();
+    trace_list(renderer, 0..renderer.emitted(), |records, _| {
+        list.extend_from_slice(records);
+        Ok::<_, std::convert::Infallible>(())
+    })
+    .unwrap();
+    list
+}
+
+/// The hash that names a list.
+pub fn hash(list: &[PhotonRecord]) -> String {
+    let mut hash = ListHash::default();
+    list.iter().for_each(|record| hash.update(record));
+    hash.hex()
+}
+
+/// Numbers for a photon, one after another, as if drawn.
+pub fn draws<'a>(numbers: &'a [f32]) -> impl FnMut() -> f32 + 'a {
+    let mut numbers = numbers.iter();
+    move || *numbers.next().expect("the photon draws no more numbers than the test gives")
+}
