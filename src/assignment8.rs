@@ -1,14 +1,13 @@
 //! The assignment's scene, camera and renderer: C++ `Assignment8.cpp`.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
 use crate::scene::Scene;
 use crate::scene::camera::PerspectiveCamera;
-use crate::scene::lights::point_light::PointLight;
-use crate::scene::obj;
+use crate::scene::obj::{self, ModelLight};
 
 /// The seed of the reference run.
 pub const SEED: u64 = 148;
@@ -27,12 +26,12 @@ pub fn create_scene() -> Scene {
         Ok(include_str!("assignment8/cornell_box.mtl").to_owned())
     })
     .expect("the model that is part of the program is well formed");
-    Scene::new(model.mesh_objects, model.triangles, vec![create_light()])
+    Scene::from_model(model, &[create_light()])
 }
 
 /// The one light, near where the ceiling was.
-pub fn create_light() -> PointLight {
-    PointLight { position: Vec3::new(0.01909, 0.0101, 1.77640), color: Vec3::ONE }
+pub fn create_light() -> ModelLight {
+    ModelLight { position: DVec3::new(0.01909, 0.0101, 1.77640), color: Vec3::ONE }
 }
 
 /// The camera in front of the box, for a picture of `width` x `height` pixels.

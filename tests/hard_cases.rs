@@ -68,21 +68,21 @@ fn box_side_normals() {
 
 #[test]
 fn three_draws_give_the_zero_vector() {
-    let light = assignment8::create_light();
+    let light = common::light();
     let mut rand = draws(&[0.5, 0.5, 0.5, 0.5, 0.5, 0.75]);
     assert_eq!(light.generate_random_photon_ray(&mut rand).ray_direction(), Vec3::Z);
 }
 
 #[test]
 fn squared_length_exactly_one() {
-    let light = assignment8::create_light();
+    let light = common::light();
     let mut rand = draws(&[0.0, 0.5, 0.5]);
     assert_eq!(light.generate_random_photon_ray(&mut rand).ray_direction(), Vec3::NEG_X);
 }
 
 #[test]
 fn squared_length_just_above_one() {
-    let light = assignment8::create_light();
+    let light = common::light();
     let mut rand = draws(&[0.0, 0.5, 0.501, 0.5, 0.0, 0.5]);
     assert_eq!(light.generate_random_photon_ray(&mut rand).ray_direction(), Vec3::NEG_Y);
 }

@@ -4,7 +4,6 @@ mod common;
 
 use common::{closed_cube, handout};
 use glam::Vec3;
-use photon_mapping::assignment8;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use photon_mapping::rendering::reading::Reading;
@@ -18,7 +17,7 @@ fn is_unit(vector: Vec3) -> bool {
 /// Unit vectors anywhere, and, half of them, within a hair of the x axis.
 fn unit_normal() -> impl Strategy<Value = Vec3> {
     let anywhere = (any::<u64>()).prop_map(|seed| {
-        let light = assignment8::create_light();
+        let light = common::light();
         light.generate_random_photon_ray(&mut photon_random(seed, 0)).ray_direction()
     });
     let near_x = (any::<bool>(), 0_i32..30, 0_i32..30, any::<bool>(), any::<bool>()).prop_map(
@@ -43,7 +42,7 @@ proptest! {
 
     #[test]
     fn emitted_directions_are_unit(seed: u64, photon: u64) {
-        let light = assignment8::create_light();
+        let light = common::light();
         let ray = light.generate_random_photon_ray(&mut photon_random(seed, photon));
         prop_assert!(is_unit(ray.ray_direction()));
         prop_assert_eq!(ray.position(), light.position);
@@ -139,7 +138,7 @@ fn standard_errors(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
 
 #[test]
 fn moments_of_emission() {
-    let light = assignment8::create_light();
+    let light = common::light();
     let directions: Vec<_> = (0..400_000)
         .map(|photon| {
             light

@@ -9,8 +9,8 @@ use super::values;
 use crate::accuracy::Accuracy;
 use crate::accuracy::table::ExpectedTable;
 use crate::assignment8;
-use crate::scene::lights::point_light::PointLight;
-use crate::scene::{Scene, obj};
+use crate::scene::Scene;
+use crate::scene::obj::{self, ModelLight};
 use crate::text_table::align;
 
 /// The options of `expect`.
@@ -22,7 +22,7 @@ pub struct ExpectArgs {
     /// A point light of the scene, as for render
     #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
           allow_hyphen_values = true)]
-    light: Vec<PointLight>,
+    light: Vec<ModelLight>,
     /// Fewer digits, but in about a second for the handout's scene instead of half a minute
     #[arg(long)]
     quick: bool,
@@ -40,7 +40,7 @@ pub fn run(arguments: &ExpectArgs) -> Result<u8, CliError> {
         None => assignment8::create_scene(),
         Some(path) => {
             let model = obj::load(path)?;
-            Scene::new(model.mesh_objects, model.triangles, arguments.light.clone())
+            Scene::from_model(model, &arguments.light)
         }
     };
     let accuracy = if arguments.quick { Accuracy::Quick } else { Accuracy::Full };

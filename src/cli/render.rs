@@ -23,9 +23,9 @@ use crate::rendering::image_writer::take_picture;
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
-use crate::scene::lights::point_light::PointLight;
+use crate::scene::Scene;
+use crate::scene::obj::{self, ModelLight};
 use crate::scene::triangle::Triangle;
-use crate::scene::{Scene, obj};
 use crate::summary::{SurfaceSummary, Tally, table};
 
 /// Expecting takes seconds at this many faces, and grows with their square; tracing does not.
@@ -74,7 +74,7 @@ pub struct RenderArgs {
     /// given several times, photons are shared by brightness
     #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
           allow_hyphen_values = true)]
-    light: Vec<PointLight>,
+    light: Vec<ModelLight>,
     /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
     #[arg(long)]
     letter_of_the_handout: bool,
@@ -158,7 +158,8 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
 
     let start = Instant::now();
     let (width, height) = arguments.size;
-    let camera = assignment8::create_camera(width, height);
+    let frame = renderer.stored_scene.frame();
+    let camera = assignment8::create_camera(width, height).in_frame(frame);
     let progress = progress(arguments, "picture", u64::from(height));
     let picture = take_picture(&renderer, &camera, width, height, || progress.inc(1));
     progress.finish_and_clear();
@@ -183,7 +184,7 @@ fn scene(arguments: &RenderArgs) -> Result<Scene, CliError> {
         return Ok(assignment8::create_scene());
     };
     let model = obj::load(path)?;
-    Ok(Scene::new(model.mesh_objects, model.triangles, arguments.light.clone()))
+    Ok(Scene::from_model(model, &arguments.light))
 }
 
 /// The photons to trace.
@@ -219,6 +220,7 @@ fn trace(
     let mut hash = ListHash::default();
     let mut tally = tally(&renderer.stored_scene);
     let mut positions = Vec::new();
+    let frame = *renderer.stored_scene.frame();
     let progress = progress(arguments, "photons", photons.end - photons.start);
     let mut writer =
         ListWriter::new(file.file(), format, comments(renderer, &photons)).map_err(unwritable)?;
@@ -226,7 +228,7 @@ fn trace(
         for record in records {
             hash.update(record);
             tally.add(record);
-            positions.push(record.position);
+            positions.push(frame.to_scene(record.position.as_dvec3()));
         }
         progress.set_position(done);
         writer.write(records)
@@ -260,12 +262,13 @@ fn read_list(
 ) -> Result<Summary, CliError> {
     let start = Instant::now();
     let surfaces = renderer.stored_scene.mesh_objects().len();
+    let frame = *renderer.stored_scene.frame();
     let mut hash = ListHash::default();
     let mut tally = tally(&renderer.stored_scene);
     let mut positions = Vec::new();
     let progress = progress(arguments, "list", 0);
     let columns = reader::read(path, |record| {
-        positions.push(record.position);
+        positions.push(frame.to_scene(record.position.as_dvec3()));
         hash.update(&record);
         if usize::from(record.surface) < surfaces && (1..=1000).contains(&record.bounce) {
             tally.add(&record);

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
-use crate::scene::lights::point_light::PointLight;
+use crate::scene::obj::ModelLight;
 
 /// The longest edge of a picture, in pixels.
 const LONGEST_EDGE: u32 = 16_384;
@@ -26,18 +26,19 @@ pub fn range(text: &str) -> Result<Range<u64>, String> {
 }
 
 /// `x,y,z` or `x,y,z,r,g,b` as a light.
-pub fn light(text: &str) -> Result<PointLight, String> {
-    let numbers: Option<Vec<f32>> = text
+pub fn light(text: &str) -> Result<ModelLight, String> {
+    let numbers: Option<Vec<f64>> = text
         .split(',')
-        .map(|number| number.trim().parse().ok().filter(|number: &f32| number.abs() <= 1e9))
+        .map(|number| number.trim().parse().ok().filter(|number: &f64| number.abs() <= 1e9))
         .collect();
     let is_color =
-        |color: &[f32]| color.iter().all(|c| *c >= 0.0) && color.iter().any(|c| *c > 0.0);
+        |color: &[f64]| color.iter().all(|c| *c >= 0.0) && color.iter().any(|c| *c > 0.0);
     match numbers.as_deref() {
-        Some([x, y, z]) => Ok(PointLight { position: Vec3::new(*x, *y, *z), color: Vec3::ONE }),
-        Some([x, y, z, color @ ..]) if color.len() == 3 && is_color(color) => {
-            Ok(PointLight { position: Vec3::new(*x, *y, *z), color: Vec3::from_slice(color) })
-        }
+        Some([x, y, z]) => Ok(ModelLight { position: DVec3::new(*x, *y, *z), color: Vec3::ONE }),
+        Some([x, y, z, color @ ..]) if color.len() == 3 && is_color(color) => Ok(ModelLight {
+            position: DVec3::new(*x, *y, *z),
+            color: DVec3::from_slice(color).as_vec3(),
+        }),
         _ => Err("expected x,y,z or x,y,z,r,g,b: finite numbers, the colour not negative and not \
                   black"
             .to_owned()),

@@ -80,7 +80,7 @@ fn record(
     };
     let surface = state.primitive(&renderer.stored_scene).parent_mesh_object;
     PhotonRecord {
-        position: stored.position,
+        position: renderer.stored_scene.frame().to_world(stored.position),
         intensity: stored.intensity,
         to_light: stored.to_light_ray.ray_direction(),
         photon: u32::try_from(photon).expect("a run has fewer than 2^32 photons"),

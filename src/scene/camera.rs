@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::frame::Frame;
 use super::ray::Ray;
 
 /// A pinhole camera.
@@ -34,6 +35,11 @@ impl PerspectiveCamera {
             half_width: half_height * aspect_ratio,
             half_height,
         }
+    }
+
+    /// The camera where it stands in the space of a scene with `frame`; its place was in world space.
+    pub fn in_frame(self, frame: &Frame) -> Self {
+        Self { position: frame.to_scene(self.position.as_dvec3()), ..self }
     }
 
     /// The ray through (`x`, `y`) of the picture, both from 0 to 1, with (0, 0) its top left corner.

@@ -1,6 +1,7 @@
 //! What is there: meshes, lights, the camera, and the question what a ray meets.
 
 pub mod camera;
+pub mod frame;
 pub mod intersection_state;
 pub mod lights;
 pub mod material;
@@ -9,32 +10,58 @@ pub mod obj;
 pub mod ray;
 pub mod triangle;
 
+use frame::Frame;
+use glam::DVec3;
 use intersection_state::IntersectionState;
 use lights::point_light::PointLight;
 use mesh_object::MeshObject;
 use ray::Ray;
 use triangle::{ShearedRay, Triangle};
 
-/// The offset of a ray that leaves a surface, along the surface's normal, in scene units. Without
+/// The offset of a ray that leaves a surface, along the surface's normal, in scene space. Without
 /// it, rounding puts every other start just below the surface and the ray meets it again.
 pub const LARGE_EPSILON: f32 = 1e-5;
 
-/// Mesh objects, their triangles, and the lights, in world space (z up).
+/// Mesh objects, their triangles, and the lights, z up, in the space in which they are traced. For the
+/// handout's scene that is world space; see [`Frame`] for models of other sizes and places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     mesh_objects: Vec<MeshObject>,
     triangles: Vec<Triangle>,
     lights: Vec<PointLight>,
+    frame: Frame,
 }
 
 impl Scene {
+    /// The scene of a model with `lights`, both in world space.
+    pub fn from_model(model: obj::Model, lights: &[obj::ModelLight]) -> Self {
+        let corners = model.triangles.iter().flat_map(|triangle| triangle.vertices);
+        let frame = Frame::around(corners.chain(lights.iter().map(|light| light.position)));
+        let place = |point: DVec3| frame.to_scene(point);
+        let triangles = model.triangles.iter().map(|triangle| Triangle {
+            vertices: triangle.vertices.map(place),
+            normal: triangle.normal,
+            parent_mesh_object: triangle.parent_mesh_object,
+            facet: triangle.facet,
+        });
+        let lights = lights
+            .iter()
+            .map(|light| PointLight { position: place(light.position), color: light.color });
+        Self {
+            triangles: triangles.collect(),
+            lights: lights.collect(),
+            mesh_objects: model.mesh_objects,
+            frame,
+        }
+    }
+
     /// A scene of `triangles`, each of which names its mesh object by index.
     pub fn new(
         mesh_objects: Vec<MeshObject>,
         triangles: Vec<Triangle>,
         lights: Vec<PointLight>,
     ) -> Self {
-        Self { mesh_objects, triangles, lights }
+        Self { mesh_objects, triangles, lights, frame: Frame::WORLD }
     }
 
     /// The mesh objects, in the model file's order.
@@ -50,6 +77,11 @@ impl Scene {
     /// The lights, in the order in which they send out their photons.
     pub fn lights(&self) -> &[PointLight] {
         &self.lights
+    }
+
+    /// Where the scene stands in the world.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
     }
 
     /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.

@@ -8,14 +8,13 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::material::Material;
 use super::mesh_object::MeshObject;
-use super::triangle::Triangle;
 
 /// Numbers larger than this are refused: their products would not be finite.
-const LARGEST_COORDINATE: f32 = 1e9;
+const LARGEST_COORDINATE: f64 = 1e9;
 
 /// What a model file holds, in world space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,7 +22,29 @@ pub struct Model {
     /// One for every pair of object and material, in order of appearance.
     pub mesh_objects: Vec<MeshObject>,
     /// All triangles, those of a polygon in a fan about its first corner.
-    pub triangles: Vec<Triangle>,
+    pub triangles: Vec<ModelTriangle>,
+}
+
+/// A triangle as the model file has it, in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelTriangle {
+    /// The corners, not yet rounded to f32.
+    pub vertices: [DVec3; 3],
+    /// The unit normal.
+    pub normal: Vec3,
+    /// Which of [`Model::mesh_objects`] it belongs to.
+    pub parent_mesh_object: usize,
+    /// Which face of that mesh object it is part of.
+    pub facet: usize,
+}
+
+/// A light for a model, in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelLight {
+    /// Where it stands, not yet rounded to f32.
+    pub position: DVec3,
+    /// Its colour.
+    pub color: Vec3,
 }
 
 /// Why a model could not be read.
@@ -101,7 +122,7 @@ impl Place {
 
 struct Reader {
     place: Place,
-    vertices: Vec<Vec3>,
+    vertices: Vec<DVec3>,
     normals: Vec<Vec3>,
     materials: HashMap<String, Material>,
     object: String,
@@ -138,7 +159,7 @@ impl Reader {
             match keyword {
                 "v" => self.vertices.push(turn(self.vector(keyword, rest)?)),
                 "vn" => {
-                    let normal = turn(self.vector(keyword, rest)?);
+                    let normal = turn(self.vector(keyword, rest)?).as_vec3();
                     let unit = normal.try_normalize();
                     self.normals.push(unit.ok_or_else(|| {
                         self.place.error("expected a normal longer than zero after 'vn'")
@@ -167,7 +188,7 @@ impl Reader {
         Ok(std::mem::take(&mut self.model))
     }
 
-    fn vector(&self, keyword: &str, rest: &str) -> Result<Vec3, ModelError> {
+    fn vector(&self, keyword: &str, rest: &str) -> Result<DVec3, ModelError> {
         numbers(&self.place, keyword, rest, -LARGEST_COORDINATE..=LARGEST_COORDINATE)
     }
 
@@ -188,20 +209,20 @@ impl Reader {
         let file_normal = first_normal.filter(|_| corners.iter().all(|c| c.1 == first_normal));
         for k in 1..corners.len() - 1 {
             let vertices = [corners[0].0, corners[k].0, corners[k + 1].0];
-            let [a, b, c] = vertices.map(|vertex| vertex.as_dvec3());
+            let [a, b, c] = vertices;
             // A triangle without area can be hit by no ray and has no normal.
             let Some(plane_normal) = (b - a).cross(c - a).try_normalize() else { continue };
             // Corners with different normals ask for a smooth surface, which no scene here needs:
             // such a face is as flat as it is built.
             let normal = file_normal.unwrap_or(plane_normal.as_vec3());
-            let triangle = Triangle { vertices, normal, parent_mesh_object: mesh, facet };
+            let triangle = ModelTriangle { vertices, normal, parent_mesh_object: mesh, facet };
             self.model.triangles.push(triangle);
         }
         Ok(())
     }
 
     /// The position of a corner such as `7`, `7/1`, `7//3` or `-1/2/3`, and its normal if it has one.
-    fn corner(&self, corner: &str) -> Result<(Vec3, Option<Vec3>), ModelError> {
+    fn corner(&self, corner: &str) -> Result<(DVec3, Option<Vec3>), ModelError> {
         let mut indices = corner.split('/');
         let vertex = indices.next().unwrap_or_default();
         let position = *self.element(&self.vertices, vertex, "vertex")?;
@@ -271,7 +292,7 @@ fn read_materials(
                     return Err(place.error("expected a 'newmtl' line before 'Kd'"));
                 };
                 let diffuse = numbers(&place, "Kd", rest, 0.0..=1.0)?;
-                materials.insert(name.clone(), Material::new(diffuse));
+                materials.insert(name.clone(), Material::new(diffuse.as_vec3()));
             }
             _ => {}
         }
@@ -295,8 +316,8 @@ fn numbers(
     place: &Place,
     keyword: &str,
     rest: &str,
-    range: std::ops::RangeInclusive<f32>,
-) -> Result<Vec3, ModelError> {
+    range: std::ops::RangeInclusive<f64>,
+) -> Result<DVec3, ModelError> {
     let mut words = rest.split_whitespace();
     let mut next = || {
         let word = words.next().unwrap_or_default();
@@ -307,13 +328,13 @@ fn numbers(
                 "expected three numbers from {low} to {high} after '{keyword}', found '{found}'"
             ))
         };
-        let number: f32 = word.parse().map_err(|_| expected())?;
+        let number: f64 = word.parse().map_err(|_| expected())?;
         if range.contains(&number) { Ok(number) } else { Err(expected()) }
     };
-    Ok(Vec3::new(next()?, next()?, next()?))
+    Ok(DVec3::new(next()?, next()?, next()?))
 }
 
 /// From y up to z up: +90 degrees about x.
-fn turn(model: Vec3) -> Vec3 {
-    Vec3::new(model.x, 0.0 - model.z, model.y)
+fn turn(model: DVec3) -> DVec3 {
+    DVec3::new(model.x, 0.0 - model.z, model.y)
 }

@@ -1,14 +1,15 @@
 //! Scenes and lists that several tests use.
 #![allow(dead_code, reason = "no test uses all of them")]
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::record::PhotonRecord;
 use photon_mapping::photon_list::trace::trace_list;
 use photon_mapping::photon_list::writer::ListHash;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use photon_mapping::scene::Scene;
 use photon_mapping::scene::lights::point_light::PointLight;
-use photon_mapping::scene::{Scene, obj};
+use photon_mapping::scene::obj::{self, ModelLight};
 
 /// A renderer of the handout's scene.
 pub fn handout(seed: u64, photon_count: u64) -> PhotonMappingRenderer {
@@ -16,13 +17,37 @@ pub fn handout(seed: u64, photon_count: u64) -> PhotonMappingRenderer {
     PhotonMappingRenderer { seed, photon_count, ..renderer }
 }
 
+/// The handout's scene, every coordinate times `scale` and then moved by `shift` (world space), read
+/// from the text of a model file as a user's scene is.
+pub fn moved_handout(scale: f64, shift: DVec3, seed: u64, count: u64) -> PhotonMappingRenderer {
+    let mut text = String::new();
+    for line in include_str!("../../src/assignment8/cornell_box.obj").lines() {
+        if let Some(figures) = line.strip_prefix("v ") {
+            let figures: Vec<f64> = figures.split(' ').map(|word| word.parse().unwrap()).collect();
+            // The model has y up: world (x, y, z) is (x, z, -y) there.
+            let shift = [shift.x, shift.z, -shift.y];
+            let [x, y, z] = std::array::from_fn(|axis| figures[axis] * scale + shift[axis]);
+            text += &format!("v {x} {y} {z}\n");
+        } else {
+            text += line;
+            text += "\n";
+        }
+    }
+    let materials = include_str!("../../src/assignment8/cornell_box.mtl");
+    let model = obj::parse(&text, |_| Ok(materials.to_owned())).unwrap();
+    let light = assignment8::create_light();
+    let light = ModelLight { position: light.position * scale + shift, ..light };
+    let renderer = assignment8::create_renderer(Scene::from_model(model, &[light]));
+    PhotonMappingRenderer { seed, photon_count: count, ..renderer }
+}
+
 /// A renderer of a closed cube from -1 to 1 whose walls all reflect `albedo`, with a light in its
 /// centre; the walls are named after the axis they cross.
 pub fn closed_cube(albedo: f32, seed: u64, photon_count: u64) -> PhotonMappingRenderer {
     let model = obj::parse(CLOSED_CUBE, |_| Ok(format!("newmtl wall\nKd {albedo} 0 0\n")))
         .expect("the cube is well formed");
-    let light = PointLight { position: Vec3::ZERO, color: Vec3::ONE };
-    let scene = Scene::new(model.mesh_objects, model.triangles, vec![light]);
+    let light = ModelLight { position: DVec3::ZERO, color: Vec3::ONE };
+    let scene = Scene::from_model(model, &[light]);
     let renderer = assignment8::create_renderer(scene);
     PhotonMappingRenderer { seed, photon_count, ..renderer }
 }
@@ -57,6 +82,11 @@ f 1//5 2//5 3//5 4//5
 o high_z
 f 5//6 8//6 7//6 6//6
 ";
+
+/// The handout's light.
+pub fn light() -> PointLight {
+    handout(148, 1).stored_scene.lights()[0]
+}
 
 /// The whole list of a run.
 pub fn list(renderer: &PhotonMappingRenderer) -> Vec<PhotonRecord> {
