@@ -1,8 +1,11 @@
 //! The command line: a file for every verb, each of which parses, calls and prints.
 
+pub mod compare;
 pub mod error;
+pub mod explain;
 pub mod output;
 pub mod render;
+pub mod run_args;
 pub mod values;
 
 use clap::{Parser, Subcommand};
@@ -31,6 +34,10 @@ struct Cli {
 enum Command {
     /// Trace the photons, write their list, and draw the picture
     Render(Box<render::RenderArgs>),
+    /// Hold a photon list (or a picture) against the reference
+    Compare(Box<compare::CompareArgs>),
+    /// Tell the whole story of one photon
+    Explain(Box<explain::ExplainArgs>),
 }
 
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
@@ -52,6 +59,8 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     let result = match cli.command {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Explain(arguments)) => explain::run(&arguments),
     };
     match result {
         Ok(code) => code,

@@ -1,0 +1,159 @@
+//! Does another fair reading of the handout explain the submission?
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
+
+use super::position_index::{PositionIndex, is_near};
+use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::reading::{Offset, Reading, TangentBasis};
+
+/// A photon whose records differ, and what the submission stored of it, if that is known.
+pub type Sample = BTreeMap<u64, Option<Vec<Vec3>>>;
+
+/// The reading under which most photons of a sample match.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BestReading {
+    /// What it does in another way than the reference.
+    pub name: String,
+    /// How many photons of the sample match under it.
+    pub matched: usize,
+}
+
+/// All readings that are tried, those that differ least from `base` first.
+fn candidates(base: Reading) -> Vec<Reading> {
+    let bases = [TangentBasis::Normalised, TangentBasis::LetterOfTheHandout];
+    let thresholds = [0.99, 0.8, 0.9999];
+    let axes = [Vec3::Y, Vec3::Z];
+    let along_normal = [1e-5, 1e-6, 1e-4, 1e-3].map(Offset::AlongNormal);
+    let along_direction = [1e-5, 1e-4, 1e-3].map(Offset::AlongDirection);
+    let offsets: Vec<_> =
+        along_normal.into_iter().chain(along_direction).chain([Offset::None]).collect();
+    let mut readings = Vec::new();
+    for tangent_basis in bases {
+        for fallback_threshold in thresholds {
+            for fallback_axis in axes {
+                for offset in &offsets {
+                    let offset = *offset;
+                    readings.push(Reading {
+                        tangent_basis,
+                        fallback_threshold,
+                        fallback_axis,
+                        offset,
+                    });
+                }
+            }
+        }
+    }
+    readings.retain(|reading| *reading != base);
+    readings.sort_by_key(|reading| changes(reading, &base).len());
+    readings
+}
+
+/// What `reading` does in another way than `base`.
+fn changes(reading: &Reading, base: &Reading) -> Vec<String> {
+    let mut changes = Vec::new();
+    if reading.tangent_basis != base.tangent_basis {
+        changes.push(match reading.tangent_basis {
+            TangentBasis::Normalised => "t and b normalised".to_owned(),
+            TangentBasis::LetterOfTheHandout => {
+                "t and b to the letter of the handout, not normalised".to_owned()
+            }
+        });
+    }
+    if reading.fallback_threshold != base.fallback_threshold {
+        changes.push(format!("fallback threshold {}", reading.fallback_threshold));
+    }
+    if reading.fallback_axis != base.fallback_axis {
+        let [x, y, z] = reading.fallback_axis.to_array();
+        changes.push(format!("fallback axis ({x}, {y}, {z})"));
+    }
+    if reading.offset != base.offset {
+        changes.push(match reading.offset {
+            Offset::None => "no offset".to_owned(),
+            Offset::AlongNormal(length) => format!("offset {length:e} along the normal"),
+            Offset::AlongDirection(length) => format!("offset {length:e} along the new direction"),
+        });
+    }
+    changes
+}
+
+/// Tries every fair reading on the photons of `sample` and gives the one under which most of them
+/// match `submission` (positions in world space) within `tolerance` scene units; `None` when no
+/// reading makes any of them match. Of readings that match equally many, it is the one that comes
+/// closest, and of those that come equally close the one with the fewest changes.
+pub fn best_reading(
+    renderer: &PhotonMappingRenderer,
+    sample: &Sample,
+    submission: &[Vec3],
+    tolerance: f32,
+) -> Option<BestReading> {
+    let index = PositionIndex::new(submission, tolerance);
+    let mut best: Option<(Score, Reading)> = None;
+    let mut renderer = renderer.clone();
+    let base = renderer.reading;
+    for reading in candidates(base) {
+        renderer.reading = reading;
+        let score = score(&renderer, sample, &index, submission, tolerance);
+        let is_better = best.as_ref().is_none_or(|(best, _)| {
+            score.matched > best.matched
+                // A clear margin: rounding alone must not prefer the more complicated reading.
+                || (score.matched == best.matched && score.distance < 0.8 * best.distance)
+        });
+        if score.matched > 0 && is_better {
+            best = Some((score, reading));
+        }
+    }
+    best.map(|(score, reading)| BestReading {
+        name: changes(&reading, &base).join(", "),
+        matched: score.matched,
+    })
+}
+
+struct Score {
+    matched: usize,
+    /// The sum of the distances between the positions matched.
+    distance: f32,
+}
+
+fn score(
+    renderer: &PhotonMappingRenderer,
+    sample: &Sample,
+    index: &PositionIndex,
+    submission: &[Vec3],
+    tolerance: f32,
+) -> Score {
+    let mut score = Score { matched: 0, distance: 0.0 };
+    let mut photon_map = Vec::new();
+    for (photon, expected) in sample {
+        photon_map.clear();
+        let one = *photon..photon + 1;
+        renderer.generic_photon_map_generation(&mut photon_map, one, |_, _, _| ());
+        let distance = match expected {
+            Some(expected) => {
+                let matches = expected.len() == photon_map.len()
+                    && expected
+                        .iter()
+                        .zip(&photon_map)
+                        .all(|(expected, photon)| is_near(*expected, photon.position, tolerance));
+                let distances = expected
+                    .iter()
+                    .zip(&photon_map)
+                    .map(|(expected, photon)| expected.distance(photon.position));
+                matches.then(|| distances.fold(0.0, |sum, distance| sum + distance))
+            }
+            None if photon_map.is_empty() => None,
+            None => photon_map.iter().try_fold(0.0, |sum, photon| {
+                let near = index.near(photon.position, 0);
+                let distances =
+                    near.iter().map(|place| submission[*place].distance(photon.position));
+                distances.reduce(f32::min).map(|distance| sum + distance)
+            }),
+        };
+        if let Some(distance) = distance {
+            score.matched += 1;
+            score.distance += distance;
+        }
+    }
+    score
+}
