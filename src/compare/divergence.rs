@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::alignment::Pairing;
 use super::differences::Difference;
+use super::numbers::thousands;
 use super::verdict::{Observation, Section, Verdict, judge};
 use crate::explain::{Ending, Story, explain, vector};
 use crate::photon_list::reader::PhotonList;
@@ -34,6 +35,8 @@ pub struct Divergence {
     pub submission: String,
     /// What speaks for the section.
     pub reason: Option<String>,
+    /// Whether there is no other plausible explanation.
+    pub certain: bool,
 }
 
 /// What is compared.
@@ -72,20 +75,27 @@ impl Lists<'_> {
         }
         let story = photon.zip(renderer).and_then(|(photon, renderer)| explain(renderer, photon));
         let record = self.submission_record(pairing);
+        let places = differing
+            .iter()
+            .filter(|(_, difference)| *difference == Difference::Place)
+            .map(|(pairing, _)| *pairing);
         let Some((story, renderer)) = story.zip(renderer) else {
+            let verdict = renderer.and_then(|renderer| self.majority(places, renderer));
             return Divergence {
                 photon,
                 bounce,
-                section: None,
+                section: verdict.as_ref().map(|verdict| verdict.section),
                 reference: match self.reference_record(pairing) {
-                    Some(record) => format!("stores {}", place(record)),
-                    None => "stores nothing there".to_owned(),
+                    Some(record) => format!("stores a photon at {}", place(record)),
+                    None => "stores no such photon".to_owned(),
                 },
                 submission: submission_does(record),
-                reason: None,
+                certain: verdict.as_ref().is_some_and(|verdict| verdict.is_certain),
+                reason: verdict.map(|verdict| verdict.reason),
             };
         };
-        let places = differing.iter().filter(|(_, difference)| *difference == Difference::Place);
+        let only_missing =
+            differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Missing(_)));
         let first = match found {
             Some((_, _, verdict)) => Some(verdict),
             None => self.judge(pairing, &story, renderer),
@@ -93,7 +103,7 @@ impl Lists<'_> {
         let is_known = self.submission.columns.photon || matches!(pairing, Pairing::Extra(_));
         let verdict = match first {
             Some(first) if first.is_certain && is_known => Some(first),
-            first => self.majority(places.map(|(pairing, _)| *pairing), renderer).or(first),
+            first => self.majority(places, renderer).or(first),
         };
         Divergence {
             photon,
@@ -101,6 +111,8 @@ impl Lists<'_> {
             section: verdict.as_ref().map(|verdict| verdict.section),
             reference: reference_does(&story, bounce.unwrap_or(1)),
             submission: submission_does(record),
+            // Photons that went elsewhere would have been stored elsewhere.
+            certain: verdict.as_ref().is_some_and(|verdict| verdict.is_certain || only_missing),
             reason: verdict.map(|verdict| verdict.reason),
         }
     }
@@ -126,6 +138,7 @@ impl Lists<'_> {
             section: Some(Section::PhotonStorage),
             reference: tell(self.reference_record(pairing)),
             submission: tell(self.submission_record(pairing)),
+            certain: true,
             reason: Some(reason.to_owned()),
         }
     }
@@ -168,6 +181,7 @@ impl Lists<'_> {
             story,
             bounce: bounce?,
             submission: self.submission_record(pairing),
+            is_same_photon: self.submission.columns.photon,
             max_bounces: renderer.max_photon_bounces,
             tolerance: self.tolerance,
         }))
@@ -194,12 +208,11 @@ impl Lists<'_> {
                     story: &story,
                     bounce,
                     submission,
+                    is_same_photon: false,
                     max_bounces: renderer.max_photon_bounces,
                     tolerance: self.tolerance,
                 });
-                // Of a photon that is only guessed, emission proves nothing: it may be another's.
-                let explains = verdict.is_certain && verdict.section != Section::PhotonEmission;
-                explains.then_some((story.photon, bounce, verdict))
+                verdict.is_certain.then_some((story.photon, bounce, verdict))
             })
         })
     }
@@ -221,7 +234,11 @@ impl Lists<'_> {
             last = Some(photon);
             let verdict =
                 explain(renderer, photon).and_then(|story| self.judge(pairing, &story, renderer));
-            if let Some(verdict) = verdict {
+            if let Some(mut verdict) = verdict {
+                if verdict.is_certain {
+                    let photon = thousands(photon);
+                    verdict.reason = format!("as photon {photon} shows, {}", verdict.reason);
+                }
                 let key = (verdict.is_certain, verdict.section);
                 votes.entry(key).or_insert((0, verdict)).0 += 1;
             }

@@ -8,6 +8,7 @@
 pub mod alignment;
 pub mod differences;
 pub mod divergence;
+pub mod numbers;
 pub mod pictures;
 pub mod position_index;
 pub mod readings;

@@ -3,7 +3,8 @@
 use image::{Rgb, RgbImage};
 use serde::Serialize;
 
-use super::report::{Outcome, thousands};
+use super::numbers::thousands;
+use super::report::Outcome;
 
 /// A dot adds all red there is to a pixel, which no surface of the box comes near by direct light.
 const RED_OF_DOT: u8 = 255;

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::alignment::{Pairing, align};
 use super::differences::{Difference, Differences, count};
 use super::divergence::{Divergence, Lists};
+use super::numbers::{short, thousands};
 use super::position_index::is_near;
 use super::readings::{Sample, best_reading};
 use crate::explain::explain;
@@ -174,6 +175,8 @@ fn sample(lists: &Lists, differing: &[(Pairing, Difference)]) -> Sample {
                 stored.push(record.position);
             }
         }
+        // Many readings let a photon escape; that one does what the submission's does says nothing.
+        sample.retain(|_, stored| stored.as_ref().is_none_or(|stored| !stored.is_empty()));
     }
     sample
 }
@@ -194,7 +197,7 @@ impl Report {
             }
             Outcome::WithinTolerance => {
                 let word = records(differences.matched);
-                let tolerance = self.tolerance;
+                let tolerance = short(self.tolerance);
                 return format!("the same within {tolerance}: {matched} {word}\n");
             }
             Outcome::Different => {}
@@ -232,12 +235,13 @@ fn counts(differences: &Differences, tolerance: f32) -> String {
             writeln!(text, "  {name:<16}{count:>10}{rest}").expect("a string takes everything");
         }
     };
-    line("matched", differences.matched, &format!("  within {tolerance}"));
+    line("matched", differences.matched, &format!("  within {}", short(tolerance)));
     line("missing", differences.missing, "");
     line("extra", differences.extra, "");
     let moved = differences.moved_largest.zip(differences.moved_median);
-    let distances =
-        moved.map(|(largest, median)| format!("  by {median} (median), {largest} at most"));
+    let distances = moved.map(|(largest, median)| {
+        format!("  by {} (median), {} at most", short(median), short(largest))
+    });
     line("moved", differences.moved, &distances.unwrap_or_default());
     line("not finite", differences.not_finite, "  positions of the submission");
     line("wrong intensity", differences.wrong_intensity, "");
@@ -258,24 +262,12 @@ impl Divergence {
         text += &format!("  the reference   {}\n", self.reference);
         text += &format!("  the submission  {}\n", self.submission);
         if let Some(section) = self.section {
-            text += &format!("  section         {}\n", section.title());
+            let doubt = if self.certain { "" } else { " (perhaps)" };
+            text += &format!("  section         {}{doubt}\n", section.title());
         }
         if let Some(reason) = &self.reason {
             text += &format!("  reason          {reason}\n");
         }
         text
     }
-}
-
-/// `1234567` as `1,234,567`.
-pub fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -61,6 +61,8 @@ pub struct Observation<'run> {
     pub bounce: usize,
     /// The submission's record; none when it is missing.
     pub submission: Option<&'run PhotonRecord>,
+    /// Whether the record is known to be this photon's; otherwise it only stands in its place.
+    pub is_same_photon: bool,
     /// How often the reference's photons may bounce.
     pub max_bounces: i32,
     /// How far apart two positions may be that count as one, in scene units.
@@ -75,6 +77,13 @@ fn guess(section: Section, reason: impl Into<String>) -> Verdict {
     Verdict { section, reason: reason.into(), is_certain: false }
 }
 
+impl Observation<'_> {
+    /// A verdict without doubt if the record is this photon's.
+    fn sure(&self, section: Section, reason: impl Into<String>) -> Verdict {
+        Verdict { section, reason: reason.into(), is_certain: self.is_same_photon }
+    }
+}
+
 /// Names the section in which the submission did something else than the reference.
 pub fn judge(observation: &Observation) -> Verdict {
     let Observation { story, bounce, tolerance, .. } = *observation;
@@ -82,10 +91,7 @@ pub fn judge(observation: &Observation) -> Verdict {
         return judge_missing(observation);
     };
     let Some(first) = story.hits.first() else {
-        return certain(
-            Section::PhotonEmission,
-            "the reference's photon leaves the light without hitting anything",
-        );
+        return observation.sure(Section::PhotonEmission, other_emission(story));
     };
     // Where lists number bounces in different ways, the path may be shorter than the number says.
     let previous = &story.hits[bounce.clamp(1, story.hits.len()) - 1];
@@ -101,7 +107,8 @@ pub fn judge(observation: &Observation) -> Verdict {
             Some(false) => judge_same_place(first),
             Some(true) => certain(Section::PhotonStorage, reason),
             None if !first.scattered => certain(Section::PhotonStorage, reason),
-            None => guess(Section::PhotonStorage, reason),
+            // Were direct hits stored, others would show it without doubt.
+            None => Verdict { is_certain: false, ..judge_same_place(first) },
         };
     }
     if is_near(record.position, previous.point(), tolerance) && previous.scattered {
@@ -111,18 +118,19 @@ pub fn judge(observation: &Observation) -> Verdict {
     let comes_from_previous =
         to_light.map(|to_light| way.cross(to_light).length()).map(|aside| aside < 20.0 * tolerance);
     if comes_from_previous == Some(false) {
-        return judge_other_origin(story, bounce);
+        return judge_other_origin(observation);
     }
     if !previous.scattered {
         let reason = "the submission scatters where the reference absorbs";
         let section = Section::PhotonScatteringAbsorption;
         let is_sure = comes_from_previous == Some(true) || bounce > 1;
-        return if is_sure { certain(section, reason) } else { guess(section, reason) };
+        return if is_sure { observation.sure(section, reason) } else { guess(section, reason) };
     }
     if story.ending == Ending::BounceLimit && story.hits.len() == bounce {
-        return certain(Section::PhotonStorage, "the path goes on beyond the last bounce allowed");
+        return observation
+            .sure(Section::PhotonStorage, "the path goes on beyond the last bounce allowed");
     }
-    judge_direction(previous, way, tolerance).unwrap_or_else(|| {
+    judge_direction(observation, previous, way).unwrap_or_else(|| {
         if bounce == 1 && comes_from_previous.is_none() {
             guess(Section::PhotonEmission, "the photon may have hit another place first")
         } else {
@@ -167,24 +175,25 @@ fn judge_same_place(hit: &Hit) -> Verdict {
 }
 
 /// The submission's photon came from elsewhere than where the reference's bounced last.
-fn judge_other_origin(story: &Story, bounce: usize) -> Verdict {
-    if bounce > 1 {
+fn judge_other_origin(observation: &Observation) -> Verdict {
+    if observation.bounce > 1 {
         return guess(Section::PhotonStorage, "to_light does not point to the hit before");
     }
-    let tries = story.emission.tries.len();
-    let draws = match tries {
-        1 => "on the first try".to_owned(),
-        _ => format!("after {} rejected", tries - 1),
+    observation.sure(Section::PhotonEmission, other_emission(observation.story))
+}
+
+fn other_emission(story: &Story) -> String {
+    let draws = match story.emission.tries.len() - 1 {
+        0 => "at the first try".to_owned(),
+        1 => "after a rejected try".to_owned(),
+        rejected => format!("after {rejected} rejected tries"),
     };
-    let reason = format!(
-        "the photon did not come from where the reference's first hit is; the reference takes its \
-         direction {draws}"
-    );
-    certain(Section::PhotonEmission, reason)
+    format!("the photon left the light in another direction than the one taken {draws}")
 }
 
 /// Judges the direction `way`, of any length, in which the submission's photon left `hit`.
-fn judge_direction(hit: &Hit, way: Vec3, tolerance: f32) -> Option<Verdict> {
+fn judge_direction(observation: &Observation, hit: &Hit, way: Vec3) -> Option<Verdict> {
+    let tolerance = observation.tolerance;
     let (Some(u1), Some(u2), Some(tangent), Some(bitangent), Some(expected)) =
         (hit.u1, hit.u2, hit.tangent, hit.bitangent, hit.direction)
     else {
@@ -214,7 +223,9 @@ fn judge_direction(hit: &Hit, way: Vec3, tolerance: f32) -> Option<Verdict> {
     // With columns of another length than 1 the transpose is not the inverse.
     let orthonormal =
         Mat3::from_cols(frame.x_axis.normalize_or_zero(), frame.y_axis.normalize_or_zero(), normal);
-    judge_tangent_space(orthonormal.transpose() * direction, local.normalize(), allowed)
+    let found = orthonormal.transpose() * direction;
+    let (section, reason) = judge_tangent_space(found, local.normalize(), allowed)?;
+    Some(observation.sure(section, reason))
 }
 
 /// What students do instead, with the direction it gives at a hit with `frame`, where the draws
@@ -261,8 +272,8 @@ fn hypotheses(frame: Mat3, local: Vec3, u1: f32, u2: f32) -> Vec<(Section, &'sta
             let literal = Mat3::from_cols(tangent, n.cross(tangent), n);
             let normalised = Mat3::from_cols(unit_tangent, n.cross(unit_tangent), n);
             let other_axis = "t is the cross product of n with another axis";
-            all.push((transformation, "t and b are not normalised", literal * local));
             all.push((transformation, other_axis, normalised * local));
+            all.push((transformation, "t and b are not normalised", literal * local));
         }
     }
     all
@@ -270,25 +281,26 @@ fn hypotheses(frame: Mat3, local: Vec3, u1: f32, u2: f32) -> Vec<(Section, &'sta
 
 /// Judges a direction that no hypothesis explains by what is left of the right one: `found` and
 /// `expected` are unit vectors in tangent space.
-fn judge_tangent_space(found: Vec3, expected: Vec3, allowed: f32) -> Option<Verdict> {
+fn judge_tangent_space(
+    found: Vec3,
+    expected: Vec3,
+    allowed: f32,
+) -> Option<(Section, &'static str)> {
     let around = |v: Vec3| Vec3::new(v.x, v.y, 0.0).normalize_or_zero();
     if found.z < -allowed {
-        return Some(certain(
-            Section::HemisphereRayTransformation,
-            "the photon leaves below the surface",
-        ));
+        return Some((Section::HemisphereRayTransformation, "the photon leaves below the surface"));
     }
     // Near the normal the azimuth means nothing.
     let lowest = 0.1;
     let has_azimuth = found.truncate().length() > lowest && expected.truncate().length() > lowest;
     if has_azimuth && around(found).distance(around(expected)) < allowed / lowest {
-        return Some(certain(
+        return Some((
             Section::HemisphereSampling,
             "the azimuth is right, the angle to the normal is not",
         ));
     }
     if (found.z - expected.z).abs() < allowed {
-        return Some(certain(
+        return Some((
             Section::HemisphereRayTransformation,
             "the angle to the normal is right, the azimuth is not",
         ));
