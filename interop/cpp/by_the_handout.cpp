@@ -1,7 +1,8 @@
-// The assignment as a student would hand it in: the handout's sections in C++, on a copy of its scene, without the course
-// framework. It draws its numbers through reference_rand.hpp and writes its photons through photon_dump.hpp, so the
-// reference can be asked whether it agrees. On request it makes one mistake, or reads the handout in another fair way,
-// to see whether the reference notices the one and lets the other pass.
+// The assignment as a student would hand it in: the handout's sections in C++, on a copy of its
+// scene, without the course framework. It draws its numbers through reference_rand.hpp and writes
+// its photons through photon_dump.hpp, so the reference can be asked whether it agrees. On request
+// it makes one mistake, or reads the handout in another fair way, to see whether the reference
+// notices the one and lets the other pass.
 //
 // The Cornell box model is by Guedis Cardenas and Morgan McGuire, Williams College 2011, CC BY 3.0.
 
@@ -35,24 +36,27 @@ Vec3 operator-(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
 Vec3 operator-(Vec3 v) { return vec3(-v.x, -v.y, -v.z); }
 Vec3 operator*(float s, Vec3 v) { return vec3(s * v.x, s * v.y, s * v.z); }
 float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 cross(Vec3 a, Vec3 b) { return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+Vec3 cross(Vec3 a, Vec3 b) {
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 float length(Vec3 v) { return std::sqrt(dot(v, v)); }
 Vec3 normalize(Vec3 v) { return (1.0f / length(v)) * v; }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // What may be done differently
 
 struct Variant {
     // Mistakes
-    bool direct_stored, no_offset, uniform_hemisphere, no_square_root, no_absolute_value, nan_frame, mean_roulette,
-        red_roulette, no_roulette, transposed_frame, flipped_normal, cube_directions, bounce_off_by_one;
+    bool direct_stored, no_offset, uniform_hemisphere, no_square_root, no_absolute_value, nan_frame,
+        mean_roulette, red_roulette, no_roulette, transposed_frame, flipped_normal, cube_directions,
+        bounce_off_by_one;
     // Readings
     bool literal, threshold_08, axis_z, offset_1e_4, offset_along_direction;
 };
 
 struct Choice {
     const char* name;
-    bool Variant::*flag;
+    bool Variant::* flag;
     const char* what;
 };
 
@@ -61,7 +65,8 @@ const Choice mistakes[] = {
     {"no-offset", &Variant::no_offset, "the scattered ray starts exactly at the hit"},
     {"uniform-hemisphere", &Variant::uniform_hemisphere, "directions uniform over the hemisphere"},
     {"no-square-root", &Variant::no_square_root, "r = u1"},
-    {"no-absolute-value", &Variant::no_absolute_value, "n . (1, 0, 0) close to 1, but not to -1; t and b as written"},
+    {"no-absolute-value", &Variant::no_absolute_value,
+     "n . (1, 0, 0) close to 1, but not to -1; t and b as written"},
     {"nan-frame", &Variant::nan_frame, "the same, t and b normalised"},
     {"mean-roulette", &Variant::mean_roulette, "P_r is the mean of d"},
     {"red-roulette", &Variant::red_roulette, "P_r is the red of d"},
@@ -69,7 +74,8 @@ const Choice mistakes[] = {
     {"transposed-frame", &Variant::transposed_frame, "t, b, n as rows"},
     {"flipped-normal", &Variant::flipped_normal, "n points to the other side"},
     {"cube-directions", &Variant::cube_directions, "emission without the loop"},
-    {"bounce-off-by-one", &Variant::bounce_off_by_one, "ends at 0 remaining bounces; wants a small --max-bounces"},
+    {"bounce-off-by-one", &Variant::bounce_off_by_one,
+     "ends at 0 remaining bounces; wants a small --max-bounces"},
 };
 
 const Choice readings[] = {
@@ -77,10 +83,11 @@ const Choice readings[] = {
     {"threshold-0.8", &Variant::threshold_08, "parallel from a dot product of 0.8 on"},
     {"axis-z", &Variant::axis_z, "(0, 0, 1) where (1, 0, 0) is parallel"},
     {"offset-1e-4", &Variant::offset_1e_4, "offset 1e-4 along n"},
-    {"offset-along-direction", &Variant::offset_along_direction, "offset 1e-4 along the new direction"},
+    {"offset-along-direction", &Variant::offset_along_direction,
+     "offset 1e-4 along the new direction"},
 };
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // The scene, in world axes (z up)
 
 struct Object {
@@ -105,18 +112,45 @@ struct Quad {
 };
 
 const Quad quads[] = {
-    {short_box, {0, 1, 0}, {{0.53f, 0.60f, 0.75f}, {0.70f, 0.60f, 0.17f}, {0.13f, 0.60f, 0.00f}, {-0.05f, 0.60f, 0.57f}}},
-    {short_box, {-0.9536f, 0, -0.3011f}, {{-0.05f, 0, 0.57f}, {-0.05f, 0.60f, 0.57f}, {0.13f, 0.60f, 0.00f}, {0.13f, 0, 0.00f}}},
-    {short_box, {-0.2964f, 0, 0.9551f}, {{0.53f, 0, 0.75f}, {0.53f, 0.60f, 0.75f}, {-0.05f, 0.60f, 0.57f}, {-0.05f, 0, 0.57f}}},
-    {short_box, {0.2858f, 0, -0.9583f}, {{0.13f, 0, 0.00f}, {0.13f, 0.60f, 0.00f}, {0.70f, 0.60f, 0.17f}, {0.70f, 0, 0.17f}}},
-    {short_box, {0.9596f, 0, 0.2813f}, {{0.70f, 0, 0.17f}, {0.70f, 0.60f, 0.17f}, {0.53f, 0.60f, 0.75f}, {0.53f, 0, 0.75f}}},
-    {right_wall, {-1, 0, 0}, {{1.00f, 0, -1.04f}, {1.00f, 0, 0.99f}, {1.00f, 1.99f, 0.99f}, {1.00f, 1.99f, -1.04f}}},
-    {tall_box, {0, 1, 0}, {{-0.53f, 1.20f, 0.09f}, {0.04f, 1.20f, -0.09f}, {-0.14f, 1.20f, -0.67f}, {-0.71f, 1.20f, -0.49f}}},
-    {tall_box, {-0.9551f, 0, 0.2964f}, {{-0.53f, 0, 0.09f}, {-0.53f, 1.20f, 0.09f}, {-0.71f, 1.20f, -0.49f}, {-0.71f, 0, -0.49f}}},
-    {tall_box, {-0.3011f, 0, -0.9536f}, {{-0.71f, 0, -0.49f}, {-0.71f, 1.20f, -0.49f}, {-0.14f, 1.20f, -0.67f}, {-0.14f, 0, -0.67f}}},
-    {tall_box, {0.9551f, 0, -0.2964f}, {{-0.14f, 0, -0.67f}, {-0.14f, 1.20f, -0.67f}, {0.04f, 1.20f, -0.09f}, {0.04f, 0, -0.09f}}},
-    {tall_box, {0.3011f, 0, 0.9536f}, {{0.04f, 0, -0.09f}, {0.04f, 1.20f, -0.09f}, {-0.53f, 1.20f, 0.09f}, {-0.53f, 0, 0.09f}}},
-    {floor_plane, {0, 1, 0}, {{-1.01f, 0, 0.99f}, {1.00f, 0, 0.99f}, {1.00f, 0, -1.04f}, {-0.99f, 0, -1.04f}}},
+    {short_box,
+     {0, 1, 0},
+     {{0.53f, 0.60f, 0.75f}, {0.70f, 0.60f, 0.17f}, {0.13f, 0.60f, 0.00f}, {-0.05f, 0.60f, 0.57f}}},
+    {short_box,
+     {-0.9536f, 0, -0.3011f},
+     {{-0.05f, 0, 0.57f}, {-0.05f, 0.60f, 0.57f}, {0.13f, 0.60f, 0.00f}, {0.13f, 0, 0.00f}}},
+    {short_box,
+     {-0.2964f, 0, 0.9551f},
+     {{0.53f, 0, 0.75f}, {0.53f, 0.60f, 0.75f}, {-0.05f, 0.60f, 0.57f}, {-0.05f, 0, 0.57f}}},
+    {short_box,
+     {0.2858f, 0, -0.9583f},
+     {{0.13f, 0, 0.00f}, {0.13f, 0.60f, 0.00f}, {0.70f, 0.60f, 0.17f}, {0.70f, 0, 0.17f}}},
+    {short_box,
+     {0.9596f, 0, 0.2813f},
+     {{0.70f, 0, 0.17f}, {0.70f, 0.60f, 0.17f}, {0.53f, 0.60f, 0.75f}, {0.53f, 0, 0.75f}}},
+    {right_wall,
+     {-1, 0, 0},
+     {{1.00f, 0, -1.04f}, {1.00f, 0, 0.99f}, {1.00f, 1.99f, 0.99f}, {1.00f, 1.99f, -1.04f}}},
+    {tall_box,
+     {0, 1, 0},
+     {{-0.53f, 1.20f, 0.09f},
+      {0.04f, 1.20f, -0.09f},
+      {-0.14f, 1.20f, -0.67f},
+      {-0.71f, 1.20f, -0.49f}}},
+    {tall_box,
+     {-0.9551f, 0, 0.2964f},
+     {{-0.53f, 0, 0.09f}, {-0.53f, 1.20f, 0.09f}, {-0.71f, 1.20f, -0.49f}, {-0.71f, 0, -0.49f}}},
+    {tall_box,
+     {-0.3011f, 0, -0.9536f},
+     {{-0.71f, 0, -0.49f}, {-0.71f, 1.20f, -0.49f}, {-0.14f, 1.20f, -0.67f}, {-0.14f, 0, -0.67f}}},
+    {tall_box,
+     {0.9551f, 0, -0.2964f},
+     {{-0.14f, 0, -0.67f}, {-0.14f, 1.20f, -0.67f}, {0.04f, 1.20f, -0.09f}, {0.04f, 0, -0.09f}}},
+    {tall_box,
+     {0.3011f, 0, 0.9536f},
+     {{0.04f, 0, -0.09f}, {0.04f, 1.20f, -0.09f}, {-0.53f, 1.20f, 0.09f}, {-0.53f, 0, 0.09f}}},
+    {floor_plane,
+     {0, 1, 0},
+     {{-1.01f, 0, 0.99f}, {1.00f, 0, 0.99f}, {1.00f, 0, -1.04f}, {-0.99f, 0, -1.04f}}},
 };
 
 const Vec3 light_position = {0.01909f, 0.0101f, 1.77640f};
@@ -146,7 +180,8 @@ std::vector<Triangle> build_scene() {
             corners[i] = model_to_world(quad.corners[i]);
         }
         for (int i = 1; i <= 2; ++i) {
-            const Triangle triangle = {corners[0], corners[i] - corners[0], corners[i + 1] - corners[0],
+            const Triangle triangle = {corners[0], corners[i] - corners[0],
+                                       corners[i + 1] - corners[0],
                                        normalize(model_to_world(quad.normal)), quad.object};
             triangles.push_back(triangle);
         }
@@ -156,8 +191,8 @@ std::vector<Triangle> build_scene() {
 
 // Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), two-sided.
 //
-// The tests ask what is wrong, never what is right: a NaN then passes them all, as it does in the course framework,
-// and a frame of NaNs shows as the flood of NaN photons that students see.
+// The tests ask what is wrong, never what is right: a NaN then passes them all, as it does in the
+// course framework, and a frame of NaNs shows as the flood of NaN photons that students see.
 bool intersect(const Triangle& triangle, const Ray& ray, float farthest, float& t) {
     const float parallel = 1e-7f;
     const Vec3 p = cross(ray.direction, triangle.edge2);
@@ -176,7 +211,8 @@ bool intersect(const Triangle& triangle, const Ray& ray, float farthest, float& 
         return false;
     }
     t = dot(triangle.edge2, q) / det;
-    // Not at 0: there a ray without offset would meet its own triangle for certain, and not by rounding.
+    // Not at 0: there a ray without offset would meet its own triangle for certain, and not by
+    // rounding.
     return !(t <= 0.0f || t >= farthest);
 }
 
@@ -193,7 +229,7 @@ bool trace(const std::vector<Triangle>& scene, const Ray& ray, Hit& hit) {
     return hit.triangle != nullptr;
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // The assignment
 
 struct Photon {
@@ -213,7 +249,8 @@ float random_number() { return static_cast<float>(rand()) / static_cast<float>(R
 
 Vec3 random_direction(const Variant& variant) {
     float x, y, z, squared;
-    // One statement a number: as three arguments of one call they would be drawn in an order of the compiler's choice.
+    // One statement a number: as three arguments of one call they would be drawn in an order of the
+    // compiler's choice.
     do {
         x = 2.0f * random_number() - 1.0f;
         y = 2.0f * random_number() - 1.0f;
@@ -273,7 +310,8 @@ float reflection_probability(Vec3 d, const Variant& variant) {
     return std::fmax(d.x, std::fmax(d.y, d.z));
 }
 
-void trace_photon(Renderer& renderer, const Ray& ray, Vec3 intensity, std::vector<char>& path, int remaining_bounces) {
+void trace_photon(Renderer& renderer, const Ray& ray, Vec3 intensity, std::vector<char>& path,
+                  int remaining_bounces) {
     const Variant& variant = renderer.variant;
 
     // Photon Storage
@@ -312,7 +350,7 @@ void trace_photon(Renderer& renderer, const Ray& ray, Vec3 intensity, std::vecto
     trace_photon(renderer, scattered, intensity, path, remaining_bounces - 1);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // The command line
 
 struct Arguments {
@@ -342,8 +380,8 @@ void print_usage() {
 
 bool parse_number(const std::string& text, std::uint64_t largest, std::uint64_t& number) {
     std::istringstream in(text);
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos && (in >> number) &&
-           number <= largest;
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos &&
+           (in >> number) && number <= largest;
 }
 
 bool choose(const std::string& name, const Choice* begin, const Choice* end, Variant& variant) {
@@ -367,9 +405,11 @@ bool parse(int argc, char** argv, Arguments& arguments) {
         const std::string value = i + 1 < argc ? argv[++i] : "";
         bool good = true;
         if (option == "--seed") {
-            good = has_seed = parse_number(value, std::numeric_limits<std::uint64_t>::max(), arguments.seed);
+            good = has_seed =
+                parse_number(value, std::numeric_limits<std::uint64_t>::max(), arguments.seed);
         } else if (option == "--photons") {
-            // The largest count up to which every count is a float: the intensity shall be rounded only once.
+            // The largest count up to which every count is a float: the intensity shall be rounded
+            // only once.
             good = has_photons = parse_number(value, 1u << 24, arguments.photons);
         } else if (option == "--max-bounces") {
             std::uint64_t bounces = 0;
@@ -387,7 +427,8 @@ bool parse(int argc, char** argv, Arguments& arguments) {
             return false;
         }
         if (!good) {
-            std::fprintf(stderr, "by_the_handout: %s does not take \"%s\"\n", option.c_str(), value.c_str());
+            std::fprintf(stderr, "by_the_handout: %s does not take \"%s\"\n", option.c_str(),
+                         value.c_str());
             return false;
         }
     }
@@ -412,7 +453,8 @@ int main(int argc, char** argv) {
     renderer.scene = build_scene();
     renderer.variant = arguments.variant;
     const float emitted = static_cast<float>(arguments.photons);
-    const Vec3 intensity = vec3(light_color.x / emitted, light_color.y / emitted, light_color.z / emitted);
+    const Vec3 intensity =
+        vec3(light_color.x / emitted, light_color.y / emitted, light_color.z / emitted);
     for (std::uint64_t i = 0; i < arguments.photons; ++i) {
         reference_rand::begin_photon(arguments.seed, i);
         renderer.recorder.begin_photon(i);
@@ -425,7 +467,8 @@ int main(int argc, char** argv) {
     std::printf("stored %llu\n", static_cast<unsigned long long>(renderer.recorder.size()));
     if (arguments.by_surface) {
         for (int object : {floor_plane, right_wall, short_box, tall_box}) {
-            std::printf("%s %llu\n", objects[object].name, static_cast<unsigned long long>(renderer.stored[object]));
+            std::printf("%s %llu\n", objects[object].name,
+                        static_cast<unsigned long long>(renderer.stored[object]));
         }
     }
     return arguments.out.empty() || renderer.recorder.write(arguments.out) ? 0 : 1;

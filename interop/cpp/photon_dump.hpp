@@ -4,20 +4,22 @@
 //
 //   photon_dump::dump(photonMap, "submission.csv");
 //
-// or, knowing which photon and which bounce each record is, so that lists can be compared record by record:
+// or, knowing which photon and which bounce each record is, so that lists can be compared record by
+// record:
 //
 //   photon_dump::PhotonDump recorder;
 //   recorder.begin_photon(i);             // before photon i, counted from 0 over all lights
-//   recorder.store(photon);               // wherever the photon map receives one; or store(photon, 3)
-//   recorder.write("submission.csv");
+//   recorder.store(photon);               // wherever the photon map receives one; or store(photon,
+//   3) recorder.write("submission.csv");
 //
-// A photon is any type with the members `position` and `intensity` (vectors with .x .y .z or [0] [1] [2]) and
-// `toLightRay` (such a vector, or a ray with GetRayDirection()).
+// A photon is any type with the members `position` and `intensity` (vectors with .x .y .z or [0]
+// [1] [2]) and `toLightRay` (such a vector, or a ray with GetRayDirection()).
 //
-// Columns: x y z in world coordinates; intensity_r intensity_g intensity_b, the light's colour divided by the photons
-// it emitted; to_light_x to_light_y to_light_z, against the photon's flight; photon, its number; bounce, 1 at the second
-// hit of a path, since the first is not stored; surface, the object that was hit, by its place in the model file from 0. The last three are written
-// only if every record has them.
+// Columns: x y z in world coordinates; intensity_r intensity_g intensity_b, the light's colour
+// divided by the photons it emitted; to_light_x to_light_y to_light_z, against the photon's flight;
+// photon, its number; bounce, 1 at the second hit of a path, since the first is not stored;
+// surface, the object that was hit, by its place in the model file from 0. The last three are
+// written only if every record has them.
 
 #ifndef PHOTON_DUMP_HPP
 #define PHOTON_DUMP_HPP
@@ -37,17 +39,19 @@ struct Triple {
     float x, y, z;
 };
 
-// The overloads differ in their last parameter only, int being the better match for 0: names go before indices, because
-// vector types that have both need not agree on what [] means.
+// The overloads differ in their last parameter only, int being the better match for 0: names go
+// before indices, because vector types that have both need not agree on what [] means.
 template <class Vector>
 auto to_triple(const Vector& v, int) -> decltype(static_cast<void>(v.z), Triple()) {
-    const Triple triple = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+    const Triple triple = {static_cast<float>(v.x), static_cast<float>(v.y),
+                           static_cast<float>(v.z)};
     return triple;
 }
 
 template <class Vector>
 auto to_triple(const Vector& v, long) -> decltype(static_cast<void>(v[2]), Triple()) {
-    const Triple triple = {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    const Triple triple = {static_cast<float>(v[0]), static_cast<float>(v[1]),
+                           static_cast<float>(v[2])};
     return triple;
 }
 
@@ -88,8 +92,8 @@ inline std::string to_text(float number) {
     std::uint32_t bits;
     static_assert(sizeof bits == sizeof number, "float must have 32 bits");
     std::memcpy(&bits, &number, sizeof bits);
-    // By bits, because -ffast-math lets the compiler take isnan() for false; and by hand, because libraries
-    // disagree on the spelling ("-nan", "nan(ind)").
+    // By bits, because -ffast-math lets the compiler take isnan() for false; and by hand, because
+    // libraries disagree on the spelling ("-nan", "nan(ind)").
     if ((bits & 0x7f800000u) == 0x7f800000u) {
         if ((bits & 0x007fffffu) != 0) {
             return "nan";
@@ -107,7 +111,9 @@ inline std::string to_text(float number) {
     return text;
 }
 
-inline std::string to_text(const Triple& t) { return to_text(t.x) + ',' + to_text(t.y) + ',' + to_text(t.z); }
+inline std::string to_text(const Triple& t) {
+    return to_text(t.x) + ',' + to_text(t.y) + ',' + to_text(t.z);
+}
 
 inline bool complain(const std::string& path, const char* what) {
     std::fprintf(stderr, "photon_dump: %s %s: %s\n", what, path.c_str(), std::strerror(errno));
@@ -117,7 +123,8 @@ inline bool complain(const std::string& path, const char* what) {
 class CsvFile {
 public:
     // Binary, so that lines end alike on every system.
-    explicit CsvFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "wb")), good_(true) {}
+    explicit CsvFile(const std::string& path)
+        : path_(path), file_(std::fopen(path.c_str(), "wb")), good_(true) {}
     ~CsvFile() {
         if (file_ != nullptr) {
             std::fclose(file_);
@@ -151,12 +158,14 @@ inline std::string header() {
 }
 
 inline std::string columns(const Record& record) {
-    return to_text(record.position) + ',' + to_text(record.intensity) + ',' + to_text(record.to_light);
+    return to_text(record.position) + ',' + to_text(record.intensity) + ',' +
+           to_text(record.to_light);
 }
 
 } // namespace detail
 
-// Everything that can be iterated over. False, with a line on stderr, when the file cannot be written.
+// Everything that can be iterated over. False, with a line on stderr, when the file cannot be
+// written.
 template <class Photons>
 bool dump(const Photons& photons, const std::string& path) {
     detail::CsvFile file(path);
@@ -170,10 +179,12 @@ bool dump(const Photons& photons, const std::string& path) {
     return file.close();
 }
 
-// Keeps its own copies, in the order of storing: a kd-tree gives its photons back in another one. For one thread.
+// Keeps its own copies, in the order of storing: a kd-tree gives its photons back in another one.
+// For one thread.
 class PhotonDump {
 public:
-    PhotonDump() : photon_(0), bounce_(0), has_begun_(false), has_photons_(true), has_surfaces_(true) {}
+    PhotonDump()
+        : photon_(0), bounce_(0), has_begun_(false), has_photons_(true), has_surfaces_(true) {}
 
     void begin_photon(std::uint64_t i) {
         photon_ = i;
@@ -192,7 +203,8 @@ public:
         record.photon = photon_;
         record.bounce = ++bounce_;
         record.surface = surface;
-        // One record that lacks a value costs the column: a made-up value would be compared like a true one.
+        // One record that lacks a value costs the column: a made-up value would be compared like a
+        // true one.
         has_photons_ = has_photons_ && has_begun_;
         has_surfaces_ = has_surfaces_ && surface != detail::no_surface;
         records_.push_back(record);
@@ -206,7 +218,8 @@ public:
         if (!file.is_open()) {
             return false;
         }
-        file.line(detail::header() + (has_photons_ ? ",photon,bounce" : "") + (has_surfaces_ ? ",surface" : ""));
+        file.line(detail::header() + (has_photons_ ? ",photon,bounce" : "") +
+                  (has_surfaces_ ? ",surface" : ""));
         for (const detail::Record& record : records_) {
             std::string line = detail::columns(record);
             if (has_photons_) {

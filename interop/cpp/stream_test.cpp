@@ -2,13 +2,14 @@
 //
 //   stream_test [--rand | --words | --floats] < requests
 //
-// A request is a line "seed stream count"; its answer is one line of `count` values with single spaces between:
+// A request is a line "seed stream count"; its answer is one line of `count` values with single
+// spaces between:
 //   --rand    rand() in decimal (default)
 //   --words   the 32-bit words in decimal
 //   --floats  (float)rand() / RAND_MAX in C's hexadecimal notation, as 0x1.8p-1
 //
-// Every division a student may write is also tried on every value of --floats; one that strays from the reference's
-// number by more than a rounding, or reaches 1, ends the program with status 1.
+// Every division a student may write is also tried on every value of --floats; one that strays from
+// the reference's number by more than a rounding, or reaches 1, ends the program with status 1.
 
 #include <cmath>
 #include <cstdint>
@@ -39,19 +40,15 @@ static bool is_within_a_rounding(float u, float reference) {
 
 static bool all_divisions_agree(int drawn, float reference) {
     const float quotients[] = {
-        (float)drawn / RAND_MAX,
-        drawn / (float)RAND_MAX,
-        (float)drawn / (float)RAND_MAX,
-        drawn / (RAND_MAX + 1.0f),
-        (float)((double)drawn / RAND_MAX),
-        (float)(drawn / (RAND_MAX + 1.0)),
-        (float)drawn * (1.0f / RAND_MAX),
-        0.5f * ((float)drawn / (RAND_MAX / 2)),
+        (float)drawn / RAND_MAX,           drawn / (float)RAND_MAX,
+        (float)drawn / (float)RAND_MAX,    drawn / (RAND_MAX + 1.0f),
+        (float)((double)drawn / RAND_MAX), (float)(drawn / (RAND_MAX + 1.0)),
+        (float)drawn * (1.0f / RAND_MAX),  0.5f * ((float)drawn / (RAND_MAX / 2)),
     };
     for (float quotient : quotients) {
         if (!is_within_a_rounding(quotient, reference)) {
-            std::fprintf(stderr, "stream_test: rand() = %d gives %a, and the reference has %a\n", drawn,
-                         (double)quotient, (double)reference);
+            std::fprintf(stderr, "stream_test: rand() = %d gives %a, and the reference has %a\n",
+                         drawn, (double)quotient, (double)reference);
             return false;
         }
     }
@@ -70,9 +67,10 @@ int main(int argc, char** argv) {
         std::istringstream request(line);
         std::uint64_t seed, stream, count;
         std::string rest;
-        if (!read_number(request, seed) || !read_number(request, stream) || !read_number(request, count) ||
-            (request >> rest)) {
-            std::fprintf(stderr, "stream_test: line %d is not \"seed stream count\": %s\n", line_number, line.c_str());
+        if (!read_number(request, seed) || !read_number(request, stream) ||
+            !read_number(request, count) || (request >> rest)) {
+            std::fprintf(stderr, "stream_test: line %d is not \"seed stream count\": %s\n",
+                         line_number, line.c_str());
             return 2;
         }
 
@@ -80,7 +78,8 @@ int main(int argc, char** argv) {
         for (std::uint64_t i = 0; i < count; ++i) {
             const char* const separator = i == 0 ? "" : " ";
             if (mode == "--words") {
-                std::printf("%s%lu", separator, static_cast<unsigned long>(reference_rand::next_word()));
+                std::printf("%s%lu", separator,
+                            static_cast<unsigned long>(reference_rand::next_word()));
                 continue;
             }
             // In turn, so that both spellings are held to the same answer.

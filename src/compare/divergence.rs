@@ -80,7 +80,9 @@ impl Lists<'_> {
             .filter(|(_, difference)| *difference == Difference::Place)
             .map(|(pairing, _)| *pairing);
         let Some((story, renderer)) = story.zip(renderer) else {
-            let verdict = renderer.and_then(|renderer| self.majority(places, renderer));
+            let verdict = renderer.and_then(|renderer| {
+                self.majority(places, renderer).or_else(|| only_extra(differing))
+            });
             return Divergence {
                 photon,
                 bounce,
@@ -250,6 +252,15 @@ impl Lists<'_> {
             votes.into_iter().max_by_key(|((is_certain, _), (count, _))| (*is_certain, *count));
         most.map(|(_, (_, verdict))| verdict)
     }
+}
+
+/// What remains when only records without numbers were added, and no path explains any of them.
+fn only_extra(differing: &[(Pairing, Difference)]) -> Option<Verdict> {
+    differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Extra(_))).then(|| Verdict {
+        section: Section::PhotonScatteringAbsorption,
+        reason: "the submission may scatter where the reference absorbs".to_owned(),
+        is_certain: false,
+    })
 }
 
 fn place(record: &PhotonRecord) -> String {

@@ -18,6 +18,8 @@ pub struct BestReading {
     pub name: String,
     /// How many photons of the sample match under it.
     pub matched: usize,
+    /// How many photons of the sample could tell.
+    pub tried: usize,
 }
 
 /// All readings that are tried, those that differ least from `base` first.
@@ -79,9 +81,12 @@ fn changes(reading: &Reading, base: &Reading) -> Vec<String> {
 }
 
 /// Tries every fair reading on the photons of `sample` and gives the one under which most of them
-/// match `submission` (positions in world space) within `tolerance` scene units; `None` when no
-/// reading makes any of them match. Of readings that match equally many, it is the one that comes
-/// closest, and of those that come equally close the one with the fewest changes.
+/// match `submission` (positions in world space) within `tolerance` scene units; `None` when under
+/// no reading more than half of them match. Of readings that match equally many, it is the one that
+/// comes closest, and of those that come equally close the one with the fewest changes.
+///
+/// Only photons stored where `renderer` stores none of theirs can tell: many readings make a photon
+/// escape, and that one does so which the submission lacks says nothing.
 pub fn best_reading(
     renderer: &PhotonMappingRenderer,
     sample: &Sample,
@@ -89,28 +94,63 @@ pub fn best_reading(
     tolerance: f32,
 ) -> Option<BestReading> {
     let index = PositionIndex::new(submission, tolerance);
+    let mut witnesses: Vec<_> = sample
+        .iter()
+        .map(|(photon, expected)| Witness {
+            photon: *photon,
+            expected: expected.as_deref(),
+            of_reference: stored(renderer, *photon),
+        })
+        .collect();
+    witnesses.retain(|witness| {
+        witness.expected.is_none_or(|expected| witness.is_elsewhere(expected, tolerance))
+    });
     let mut best: Option<(Score, Reading)> = None;
     let mut renderer = renderer.clone();
     let base = renderer.reading;
     for reading in candidates(base) {
         renderer.reading = reading;
-        let score = score(&renderer, sample, &index, submission, tolerance);
+        let score = score(&renderer, &witnesses, &index, submission, tolerance);
         let is_better = best.as_ref().is_none_or(|(best, _)| {
             score.matched > best.matched
                 // A clear margin: rounding alone must not prefer the more complicated reading.
                 || (score.matched == best.matched && score.distance < 0.8 * best.distance)
         });
-        if score.matched > 0 && is_better {
+        if 2 * score.matched > score.tried && is_better {
             best = Some((score, reading));
         }
     }
     best.map(|(score, reading)| BestReading {
         name: changes(&reading, &base).join(", "),
         matched: score.matched,
+        tried: score.tried,
     })
 }
 
+struct Witness<'sample> {
+    photon: u64,
+    expected: Option<&'sample [Vec3]>,
+    of_reference: Vec<Vec3>,
+}
+
+impl Witness<'_> {
+    /// Whether any of `positions` is none of the reference's.
+    fn is_elsewhere(&self, positions: &[Vec3], tolerance: f32) -> bool {
+        positions.iter().any(|a| self.of_reference.iter().all(|b| !is_near(*a, *b, tolerance)))
+    }
+}
+
+/// Where `renderer` stores photon `photon`.
+fn stored(renderer: &PhotonMappingRenderer, photon: u64) -> Vec<Vec3> {
+    let mut photon_map = Vec::new();
+    let one = photon..photon + 1;
+    renderer.generic_photon_map_generation(&mut photon_map, one, |_, _, _| ());
+    photon_map.iter().map(|photon| photon.position).collect()
+}
+
+#[derive(Default)]
 struct Score {
+    tried: usize,
     matched: usize,
     /// The sum of the distances between the positions matched.
     distance: f32,
@@ -118,41 +158,34 @@ struct Score {
 
 fn score(
     renderer: &PhotonMappingRenderer,
-    sample: &Sample,
+    witnesses: &[Witness],
     index: &PositionIndex,
     submission: &[Vec3],
     tolerance: f32,
 ) -> Score {
-    let mut score = Score { matched: 0, distance: 0.0 };
-    let mut photon_map = Vec::new();
-    for (photon, expected) in sample {
-        photon_map.clear();
-        let one = *photon..photon + 1;
-        renderer.generic_photon_map_generation(&mut photon_map, one, |_, _, _| ());
-        let distance = match expected {
-            Some(expected) => {
-                let matches = expected.len() == photon_map.len()
-                    && expected
-                        .iter()
-                        .zip(&photon_map)
-                        .all(|(expected, photon)| is_near(*expected, photon.position, tolerance));
-                let distances = expected
-                    .iter()
-                    .zip(&photon_map)
-                    .map(|(expected, photon)| expected.distance(photon.position));
-                matches.then(|| distances.fold(0.0, |sum, distance| sum + distance))
-            }
-            None if photon_map.is_empty() => None,
-            None => photon_map.iter().try_fold(0.0, |sum, photon| {
-                let near = index.near(photon.position, 0);
-                let distances =
-                    near.iter().map(|place| submission[*place].distance(photon.position));
-                distances.reduce(f32::min).map(|distance| sum + distance)
-            }),
+    let mut score = Score::default();
+    for witness in witnesses {
+        let stored = stored(renderer, witness.photon);
+        let distances: Option<Vec<f32>> = match witness.expected {
+            Some(expected) if expected.len() != stored.len() => None,
+            Some(expected) => expected
+                .iter()
+                .zip(&stored)
+                .map(|(a, b)| is_near(*a, *b, tolerance).then(|| a.distance(*b)))
+                .collect(),
+            None if !witness.is_elsewhere(&stored, tolerance) => continue,
+            None => stored
+                .iter()
+                .map(|position| {
+                    let near = index.near(*position, 0).into_iter();
+                    near.map(|place| submission[place].distance(*position)).reduce(f32::min)
+                })
+                .collect(),
         };
-        if let Some(distance) = distance {
+        score.tried += 1;
+        if let Some(distances) = distances {
             score.matched += 1;
-            score.distance += distance;
+            score.distance = distances.iter().fold(score.distance, |sum, distance| sum + distance);
         }
     }
     score

@@ -52,8 +52,8 @@ pub struct Report {
     pub differences: Differences,
     /// Where they part first.
     pub first_divergence: Option<Divergence>,
-    /// The fair reading of the handout under which most of the photons that differ match, if it is
-    /// more than half of them.
+    /// The reading of the handout under which most of the photons that differ match, if it is more
+    /// than half of them.
     pub reading: Option<String>,
     /// How many of the photons tried match under it.
     pub reading_matched: Option<usize>,
@@ -119,10 +119,10 @@ pub fn compare(
     if let Some(renderer) = known.filter(|_| !sample.is_empty()) {
         let positions: Vec<_> = submission.records.iter().map(|record| record.position).collect();
         let best = best_reading(renderer, &sample, &positions, tolerance);
-        if let Some(best) = best.filter(|best| 2 * best.matched > sample.len()) {
+        if let Some(best) = best {
             report.reading = Some(best.name);
             report.reading_matched = Some(best.matched);
-            report.reading_tried = Some(sample.len());
+            report.reading_tried = Some(best.tried);
         }
     }
     report
@@ -175,8 +175,6 @@ fn sample(lists: &Lists, differing: &[(Pairing, Difference)]) -> Sample {
                 stored.push(record.position);
             }
         }
-        // Many readings let a photon escape; that one does what the submission's does says nothing.
-        sample.retain(|_, stored| stored.as_ref().is_none_or(|stored| !stored.is_empty()));
     }
     sample
 }
@@ -216,8 +214,8 @@ impl Report {
             (&self.reading, self.reading_matched, self.reading_tried)
         {
             text += &format!(
-                "\na fair reading of the handout: {reading}\n  {matched} of {tried} photons that \
-                 differ, traced again with it, match\n"
+                "\nexplained by another reading of the handout: {reading}\n  {matched} of {tried} \
+                 photons that differ match when traced again with it\n"
             );
         }
         if let Some(note) = &self.note {
