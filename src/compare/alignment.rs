@@ -1,5 +1,7 @@
 //! Which record of one list belongs to which of the other.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use glam::Vec3;
@@ -23,7 +25,7 @@ pub enum Pairing {
 /// Pairs the records of two lists, in the reference's order.
 ///
 /// Lists that both tell the emitted photon are paired photon by photon, and within a photon by
-/// bounce where both tell it; unless more records of that photon come to lie upon each other when
+/// bounce where both tell it (see [`with_bounces`]); unless more records of that photon come to lie upon each other when
 /// paired by order, as they do when a submission counts from another bounce. All other lists are
 /// paired by order: the longest sequence of records, in the order of both lists, that lie within
 /// `tolerance` scene units of each other, stays together, and what lies between is paired one by
@@ -56,6 +58,23 @@ pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) ->
         );
     }
     pairings
+}
+
+/// The list with bounces where it tells only the photon: 1, 2, 3 in the order of its records, as if
+/// each photon's first hit, and only that one, were left out.
+pub fn with_bounces(list: &PhotonList) -> Cow<'_, PhotonList> {
+    if !list.columns.photon || list.columns.bounce {
+        return Cow::Borrowed(list);
+    }
+    let mut numbered = list.clone();
+    numbered.columns.bounce = true;
+    let mut bounces: HashMap<u32, u16> = HashMap::new();
+    for record in &mut numbered.records {
+        let bounce = bounces.entry(record.photon).or_default();
+        *bounce = bounce.saturating_add(1);
+        record.bounce = *bounce;
+    }
+    Cow::Owned(numbered)
 }
 
 /// The places of a list's records in order of photon, then bounce.

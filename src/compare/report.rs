@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::Vec3;
 use serde::Serialize;
 
-use super::alignment::{Pairing, align};
+use super::alignment::{Pairing, align, with_bounces};
 use super::differences::{Difference, Differences, count};
 use super::divergence::{Divergence, Lists};
 use super::numbers::{short, thousands};
@@ -97,6 +97,7 @@ pub fn compare(
         report.sha256 = reference.columns.all().then(|| hash(reference));
         return report;
     }
+    let (reference, submission) = (&*with_bounces(reference), &*with_bounces(submission));
     let pairings = align(reference, submission, tolerance);
     let (differences, differing) = count(reference, submission, &pairings, tolerance);
     let agree = differences.is_none();
