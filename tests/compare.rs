@@ -237,7 +237,7 @@ fn bad_input_is_refused_in_one_line() {
     let broken = folder.path().join("broken.png");
     fs::write(&broken, b"\x89PNG\r\n\x1a\nnothing").expect("can be written");
     let nowhere = folder.path().join("nowhere.csv");
-    fails("compare", &[], &["REFERENCE"]);
+    fails("compare", &[], &["<FILE>"]);
     fails("compare {}", &[&csv], &["--seed", "REFERENCE"]);
     fails("compare {} {}", &[&csv, &nowhere], &["nowhere.csv", "cannot be read"]);
     fails("compare --seed 1 {}", &[&nowhere], &["nowhere.csv", "cannot be read"]);

@@ -30,9 +30,9 @@ const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
                         2 could not be read."
 )]
 pub struct CompareArgs {
-    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
-    /// with --seed or --photons a single list, and the reference is traced on the spot
-    #[arg(value_name = "REFERENCE] [SUBMISSION", required = true, num_args = 1..=2)]
+    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures; with
+    /// --seed or --photons a list alone, and the reference is traced on the spot
+    #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
     /// How far apart two positions may be that count as one, as a part of the scene's longest edge
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = tolerance)]
@@ -77,12 +77,17 @@ pub fn run(arguments: &CompareArgs) -> Result<u8, CliError> {
 }
 
 fn is_picture(path: &Path) -> Result<bool, CliError> {
+    let unreadable = |error| CliError::unreadable(path, error);
+    let mut file = File::open(path).map_err(unreadable)?;
+    // What a pipe has given once it does not give again.
+    if !file.metadata().map_err(unreadable)?.is_file() {
+        return Ok(false);
+    }
     let mut start = [0; 8];
-    let mut file = File::open(path).map_err(|error| CliError::unreadable(path, error))?;
     match file.read_exact(&mut start) {
         Ok(()) => Ok(start == PNG),
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(false),
-        Err(error) => Err(CliError::unreadable(path, error)),
+        Err(error) => Err(unreadable(error)),
     }
 }
 

@@ -21,8 +21,13 @@ pub struct Provenance {
 /// What the comments of the PLY file `path` say; `None` when they say nothing, as in a CSV file or
 /// one of another program.
 pub fn provenance(path: &Path) -> Option<Provenance> {
-    let file = BufReader::new(File::open(path).ok()?);
-    file.take(LONGEST_HEADER)
+    let file = File::open(path).ok()?;
+    // What a pipe has given once it does not give again.
+    if !file.metadata().ok()?.is_file() {
+        return None;
+    }
+    BufReader::new(file)
+        .take(LONGEST_HEADER)
         .lines()
         .map_while(Result::ok)
         .take_while(|line| line.trim_end() != "end_header")
