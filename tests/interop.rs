@@ -6,6 +6,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use photon_mapping::photon_list::reader::load;
 use photon_mapping::random::photon_random;
 use support::{folder, json, run_line};
 
@@ -14,12 +15,21 @@ const PHOTONS: &str = "60000";
 /// Compiles `source` of `interop/cpp` into `folder`; `None`, with a message, where there is no
 /// compiler. In CI there must be one.
 fn compile(source: &str, folder: &Path) -> Option<PathBuf> {
-    let program = folder.join(source.trim_end_matches(".cpp"));
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("interop/cpp").join(source);
+    compile_file(&headers().join(source), folder)
+}
+
+fn headers() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("interop/cpp")
+}
+
+fn compile_file(source: &Path, folder: &Path) -> Option<PathBuf> {
+    let program = folder.join(source.file_stem().expect("a file"));
     let compiled = Command::new("g++")
+        .arg("-I")
+        .arg(headers())
         .args(["-std=c++11", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-pedantic"])
         .args(["-Werror", "-o"])
-        .args([&program, &source])
+        .args([&program, source])
         .output();
     match compiled {
         Ok(output) => {
@@ -103,6 +113,49 @@ fn a_solution_by_the_handout_agrees() {
     assert!(1000 * count("matched") >= 999 * count("reference_records"), "{report}");
     assert!(1000 * count("extra") <= count("reference_records"), "{report}");
     assert_eq!((count("wrong_intensity"), count("wrong_to_light")), (0, 0));
+}
+
+/// Vectors with [] instead of .x .y .z, and a ray instead of a direction, as the framework has it.
+const OTHER_TYPES: &str = r#"
+#include <limits>
+#include "photon_dump.hpp"
+struct Vector { float v[3]; float operator[](int i) const { return v[i]; } };
+struct Ray { Vector direction; Vector GetRayDirection() { return direction; } };
+struct Photon { Vector position, intensity; Ray toLightRay; };
+int main(int, char** argv) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<Photon> photons = {{{{0.1f, -2, 1e-30f}}, {{1e-6f, 1, 2}}, {{{0, 0, -1}}}},
+                                         {{{-nan, 0, 0}}, {{1, 1, 1}}, {{{0, 1, 0}}}}};
+    photon_dump::PhotonDump recorder;
+    recorder.begin_photon(4000000000u);
+    recorder.store(photons[0], 3);
+    recorder.store(photons[1], 1);
+    return photon_dump::dump(photons, argv[1]) && recorder.write(argv[2]) ? 0 : 1;
+}
+"#;
+
+#[test]
+fn photons_of_other_types_are_written() {
+    let folder = folder();
+    let source = folder.path().join("other_types.cpp");
+    std::fs::write(&source, OTHER_TYPES).expect("can be written");
+    let Some(program) = compile_file(&source, folder.path()) else { return };
+    let (plain, numbered) = (folder.path().join("plain.csv"), folder.path().join("numbered.csv"));
+    let status = Command::new(program).args([&plain, &numbered]).status();
+    assert!(status.expect("the program runs").success());
+    let (plain, numbered) = (load(&plain).expect("a list"), load(&numbered).expect("a list"));
+    assert!(plain.columns.to_light && !plain.columns.photon && numbered.columns.all());
+    for list in [&plain, &numbered] {
+        assert_eq!(list.records[0].position.to_array(), [0.1, -2.0, 1e-30]);
+        assert_eq!(list.records[0].intensity.to_array(), [1e-6, 1.0, 2.0]);
+        assert_eq!(list.records[0].to_light.to_array(), [0.0, 0.0, -1.0]);
+        assert!(list.records[1].position.x.is_nan());
+    }
+    let numbers = |place: usize| {
+        let record = &numbered.records[place];
+        (record.photon, record.bounce, record.surface)
+    };
+    assert_eq!((numbers(0), numbers(1)), ((4_000_000_000, 1, 3), (4_000_000_000, 2, 1)));
 }
 
 const MISTAKES: [(&str, &str, &str); 13] = [
