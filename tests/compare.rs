@@ -133,6 +133,17 @@ fn the_first_divergence_is_explained_from_the_path() {
 }
 
 #[test]
+fn a_list_of_another_seed_is_called_so() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let positions = changed(&csv, "positions.csv", positions_only);
+    let line = "compare --json --seed 149 --photons 20000 {}";
+    let report = json(run_line(line, &[&positions]).code(1));
+    assert_eq!(report["first_divergence"]["certain"], false);
+    assert!(report["note"].as_str().expect("a note").contains("another generator, seed"));
+}
+
+#[test]
 fn a_ply_list_names_its_run() {
     let folder = folder();
     let line = "render --quiet --size 1x1 --seed 5 --photons 20000 --max-bounces 9 --out {}";

@@ -116,6 +116,14 @@ pub fn compare(
         );
     }
     report.first_divergence = Some(lists.first_divergence(&differing, known));
+    let is_sure = report.first_divergence.as_ref().is_some_and(|divergence| divergence.certain);
+    if known.is_some() && !is_sure && 100 * report.differences.matched < report.reference_records {
+        report.note = Some(
+            "hardly any record matches: a list with another generator, seed or order of draws can \
+             be compared only by its statistics"
+                .to_owned(),
+        );
+    }
     let sample = sample(&lists, &differing);
     if let Some(renderer) = known.filter(|_| !sample.is_empty()) {
         let positions: Vec<_> = submission.records.iter().map(|record| record.position).collect();
