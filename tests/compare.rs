@@ -126,6 +126,11 @@ fn the_first_divergence_is_explained_from_the_path() {
     assert_eq!(divergence["section"], "Photon Scattering/Absorption");
     assert!(divergence["reference"].as_str().expect("text").contains("< P_r"), "{divergence}");
 
+    let line = "compare --json --allow 0.01 --photons 20000 {}";
+    assert_eq!(json(run_line(line, &[&shorter]).code(0))["outcome"], "within-tolerance");
+    let text = stdout(run_line("compare --allow 0.01 {} {}", &[&csv, &shorter]).code(0));
+    assert!(text.starts_with("the same but for the few"), "{text}");
+
     // A CSV file does not name its run; without it, the records alone are told.
     let report = json(run_line("compare --json --seed 7 {} {}", &[&csv, &shorter]).code(1));
     assert!(report["first_divergence"]["section"].is_null());

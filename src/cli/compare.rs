@@ -30,13 +30,16 @@ const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
                         2 could not be read."
 )]
 pub struct CompareArgs {
-    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures; with
-    /// --seed or --photons a list alone, and the reference is traced on the spot
+    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
+    /// with --seed or --photons a list alone, and the reference is traced on the spot
     #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
     /// How far apart two positions may be that count as one, as a part of the scene's longest edge
-    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = tolerance)]
+    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
     tolerance: f32,
+    /// Which part of the records may differ before the lists do
+    #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
+    allow: f32,
     /// For pictures: where to write the difference picture
     #[arg(long, value_name = "DIFF.png")]
     out: Option<PathBuf>,
@@ -47,7 +50,7 @@ pub struct CompareArgs {
     run: RunArgs,
 }
 
-fn tolerance(text: &str) -> Result<f32, String> {
+fn part(text: &str) -> Result<f32, String> {
     let number = text.parse().ok().filter(|number: &f32| (0.0..=1.0).contains(number));
     number.ok_or_else(|| "expected a number from 0 to 1".to_owned())
 }
@@ -115,7 +118,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     };
     let submission = reader::load(submission)?;
     let tolerance = arguments.tolerance * scene_size(&renderer.stored_scene);
-    let report = compare(&reference, &submission, Some(&renderer), tolerance);
+    let report = compare(&reference, &submission, Some(&renderer), tolerance, arguments.allow);
     finish(arguments, &report, &report.text(), report.outcome)
 }
 

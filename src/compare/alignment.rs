@@ -25,11 +25,12 @@ pub enum Pairing {
 /// Pairs the records of two lists, in the reference's order.
 ///
 /// Lists that both tell the emitted photon are paired photon by photon, and within a photon by
-/// bounce where both tell it (see [`with_bounces`]); unless more records of that photon come to lie upon each other when
-/// paired by order, as they do when a submission counts from another bounce. All other lists are
-/// paired by order: the longest sequence of records, in the order of both lists, that lie within
-/// `tolerance` scene units of each other, stays together, and what lies between is paired one by
-/// one. So a missing or extra record puts nothing out of step. Time grows as n log n.
+/// bounce where both tell it (see [`with_bounces`]); unless more records of that photon come to lie
+/// upon each other when paired by order, as they do when a submission counts from another bounce.
+/// All other lists are paired by order: the longest sequence of records, in the order of both
+/// lists, that lie within `tolerance` scene units of each other, stays together, and what lies
+/// between is paired one by one. So a missing or extra record puts nothing out of step. Time grows
+/// as n log n.
 pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Vec<Pairing> {
     let lists = Lists { reference, submission, tolerance };
     if !(reference.columns.photon && submission.columns.photon) {

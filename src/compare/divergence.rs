@@ -53,9 +53,9 @@ pub struct Lists<'lists> {
 }
 
 impl Lists<'_> {
-    /// Describes the first of `differing`, which must not be empty; differences of place come first,
-    /// since another intensity or direction to the light is often the same for all records. With
-    /// the reference's `renderer`, also names the section.
+    /// Describes the first of `differing`, which must not be empty; differences of place come
+    /// first, since another intensity or direction to the light is often the same for all records.
+    /// With the reference's `renderer`, also names the section.
     pub fn first_divergence(
         &self,
         differing: &[(Pairing, Difference)],

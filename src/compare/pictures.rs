@@ -30,8 +30,8 @@ pub struct PictureReport {
 }
 
 /// Compares two pictures. The difference picture shows the reference in grey, dots that both have
-/// in white, missing dots in blue, extra dots in red, and other differences in yellow; there is none
-/// when the pictures have different sizes.
+/// in white, missing dots in blue, extra dots in red, and other differences in yellow; there is
+/// none when the pictures have different sizes.
 pub fn compare_pictures(
     reference: &RgbImage,
     submission: &RgbImage,

@@ -19,6 +19,9 @@ use crate::scene::Scene;
 
 /// So many of the photons that differ are traced again under every reading.
 const SAMPLE: usize = 200;
+/// The part of the records of a right solution that rounding may move beyond the tolerance.
+/// Measured in C++ over seven seeds: 3 records of 350,000, all in one run.
+const USUAL_BY_ROUNDING: f64 = 1e-4;
 /// So many records of the reference are traced again, to see whether its run is the one named.
 const PROBES: usize = 32;
 
@@ -28,7 +31,7 @@ const PROBES: usize = 32;
 pub enum Outcome {
     /// The same bits.
     Identical,
-    /// The same records within the tolerance.
+    /// The same records within the tolerance, but for as many as are allowed to differ.
     WithinTolerance,
     /// Not the same.
     Different,
@@ -71,13 +74,15 @@ pub fn scene_size(scene: &Scene) -> f32 {
     (high - low).max_element()
 }
 
-/// Compares two lists; positions are the same within `tolerance` scene units. `renderer` is the run
-/// of which `reference` is said to be the list; where they part is explained from it if it is.
+/// Compares two lists; positions are the same within `tolerance` scene units, and the part
+/// `allowed` of all records, from 0 to 1, may differ before the lists do. `renderer` is the run of
+/// which `reference` is said to be the list; where they part is explained from it if it is.
 pub fn compare(
     reference: &PhotonList,
     submission: &PhotonList,
     renderer: Option<&PhotonMappingRenderer>,
     tolerance: f32,
+    allowed: f32,
 ) -> Report {
     let mut report = Report {
         outcome: Outcome::Identical,
@@ -100,10 +105,12 @@ pub fn compare(
     let (reference, submission) = (&*with_bounces(reference), &*with_bounces(submission));
     let pairings = align(reference, submission, tolerance);
     let (differences, differing) = count(reference, submission, &pairings, tolerance);
-    let agree = differences.is_none();
+    let records = report.reference_records.max(report.submission_records);
+    let few = |part: f64| differing.len() as f64 <= part * records as f64;
+    let agree = few(f64::from(allowed));
     report.outcome = if agree { Outcome::WithinTolerance } else { Outcome::Different };
     report.differences = differences;
-    if agree {
+    if differing.is_empty() {
         return report;
     }
     let lists = Lists { reference, submission, pairings: &pairings, tolerance };
@@ -121,6 +128,13 @@ pub fn compare(
         report.note = Some(
             "hardly any record matches: a list with another generator, seed or order of draws can \
              be compared only by its statistics"
+                .to_owned(),
+        );
+    }
+    if few(USUAL_BY_ROUNDING) && !agree {
+        report.note = Some(
+            "so few may differ by rounding alone, where light grazes a surface or an edge; \
+             --allow 0.0001 lets them pass"
                 .to_owned(),
         );
     }
@@ -202,15 +216,19 @@ impl Report {
                 }
                 return text + "\n";
             }
-            Outcome::WithinTolerance => {
+            Outcome::WithinTolerance if differences.is_none() => {
                 let word = records(differences.matched);
                 let tolerance = short(self.tolerance);
                 return format!("the same within {tolerance}: {matched} {word}\n");
             }
-            Outcome::Different => {}
+            Outcome::WithinTolerance | Outcome::Different => {}
         }
+        let word = match self.outcome {
+            Outcome::Different => "different",
+            _ => "the same but for the few that may differ",
+        };
         let mut text = format!(
-            "different: the reference has {} {}, the submission {}\n",
+            "{word}: the reference has {} {}, the submission {}\n",
             thousands(self.reference_records),
             records(self.reference_records),
             thousands(self.submission_records),
