@@ -4,12 +4,15 @@
 //! the renderer, [`scene::lights::point_light`] sends photons out, and
 //! [`rendering::photon_mapping_renderer`] follows, stores and shows them. `ASSIGNMENT.md` reads
 //! along. The rooms above look on and are not needed to understand it: [`photon_list`] keeps exact
-//! lists, [`accuracy`] computes what is expected without tracing, [`summary`] holds a run against it, and
-//! [`cli`] is the command line.
+//! lists, [`accuracy`] computes what is expected without tracing, [`summary`] holds a run against it,
+//! [`explain`] tells the story of one photon, [`compare`] says where two lists part and why, and [`cli`]
+//! is the command line.
 
 pub mod accuracy;
 pub mod assignment8;
 pub mod cli;
+pub mod compare;
+pub mod explain;
 pub mod photon_list;
 pub mod random;
 pub mod rendering;

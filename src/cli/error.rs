@@ -15,6 +15,14 @@ pub enum CliError {
     /// A photon list could not be read.
     #[error(transparent)]
     List(#[from] ListError),
+    /// A file could not be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// A file or folder could not be written.
     #[error("{}: cannot be written: {source}", path.display())]
     Unwritable {
@@ -35,6 +43,11 @@ pub enum CliError {
 }
 
 impl CliError {
+    /// `path` could not be read because of `source`.
+    pub fn unreadable(path: &Path, source: io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
+
     /// `path` could not be written because of `source`.
     pub fn unwritable(path: &Path, source: io::Error) -> Self {
         Self::Unwritable { path: path.to_owned(), source }

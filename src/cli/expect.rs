@@ -1,28 +1,19 @@
 //! `photon-mapping expect`: how many hits are expected, computed without tracing.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
 use super::error::{CliError, print};
-use super::values;
+use super::run_args::SceneArgs;
 use crate::accuracy::Accuracy;
 use crate::accuracy::table::ExpectedTable;
 use crate::assignment8;
-use crate::scene::Scene;
-use crate::scene::obj::{self, ModelLight};
 use crate::text_table::align;
 
 /// The options of `expect`.
 #[derive(Debug, Args)]
 pub struct ExpectArgs {
-    /// A Wavefront OBJ model, as for render. Needs --light
-    #[arg(long, value_name = "FILE.obj", requires = "light")]
-    scene: Option<PathBuf>,
-    /// A point light of the scene, as for render
-    #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
-          allow_hyphen_values = true)]
-    light: Vec<ModelLight>,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Fewer digits, but in about a second for the handout's scene instead of half a minute
     #[arg(long)]
     quick: bool,
@@ -36,15 +27,8 @@ pub struct ExpectArgs {
 /// # Errors
 /// When the scene cannot be read.
 pub fn run(arguments: &ExpectArgs) -> Result<u8, CliError> {
-    let scene = match &arguments.scene {
-        None => assignment8::create_scene(),
-        Some(path) => {
-            let model = obj::load(path)?;
-            Scene::from_model(model, &arguments.light)
-        }
-    };
     let accuracy = if arguments.quick { Accuracy::Quick } else { Accuracy::Full };
-    let renderer = assignment8::create_renderer(scene);
+    let renderer = assignment8::create_renderer(arguments.scene.load()?);
     let shares = renderer.photons_per_light();
     let table = ExpectedTable::compute(&renderer.stored_scene, &shares, accuracy);
     if arguments.json {

@@ -1,9 +1,12 @@
 //! The command line: a file for every verb, each of which parses, calls and prints.
 
+pub mod compare;
 pub mod error;
 pub mod expect;
+pub mod explain;
 pub mod output;
 pub mod render;
+pub mod run_args;
 pub mod values;
 
 use clap::{Parser, Subcommand};
@@ -32,6 +35,10 @@ struct Cli {
 enum Command {
     /// Trace the photons, write their list, and draw the picture
     Render(Box<render::RenderArgs>),
+    /// Hold a photon list (or a picture) against the reference
+    Compare(Box<compare::CompareArgs>),
+    /// Tell the whole story of one photon
+    Explain(Box<explain::ExplainArgs>),
     /// Compute how many hits are expected, without tracing a photon
     Expect(expect::ExpectArgs),
 }
@@ -56,6 +63,8 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Expect(arguments)) => expect::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Explain(arguments)) => explain::run(&arguments),
     };
     match result {
         Ok(code) => code,

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use super::error::{CliError, print};
 use super::output::OutputFile;
+use super::run_args::RunArgs;
 use super::values;
 use crate::accuracy::Accuracy;
 use crate::accuracy::table::ExpectedTable;
@@ -24,7 +25,6 @@ use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
 use crate::scene::Scene;
-use crate::scene::obj::{self, ModelLight};
 use crate::scene::triangle::Triangle;
 use crate::summary::{SurfaceSummary, Tally, table};
 
@@ -34,17 +34,8 @@ const MOST_FACETS_TO_EXPECT: usize = 40;
 /// The options of `render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The key of all random numbers, a whole number below 2^64
-    #[arg(long, value_name = "N", default_value_t = assignment8::SEED)]
-    seed: u64,
-    /// How many photons all lights send out together, up to 2^32 - 1
-    #[arg(long, value_name = "N", default_value_t = assignment8::PHOTON_COUNT,
-          value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
-    photons: u64,
-    /// How often a photon may bounce at most, 0 to 1000 times
-    #[arg(long, value_name = "N", default_value_t = assignment8::MAX_PHOTON_BOUNCES,
-          value_parser = clap::value_parser!(i32).range(0..=1000))]
-    max_bounces: i32,
+    #[command(flatten)]
+    run: RunArgs,
     /// Trace only the photons numbered A up to, but not with, B; the lists of adjoining ranges,
     /// one after another, are the whole run's list [default: all]
     #[arg(long, value_name = "A..B", value_parser = values::range)]
@@ -66,18 +57,6 @@ pub struct RenderArgs {
     /// The format of the list
     #[arg(long, value_enum, default_value_t = FormatName::Ply)]
     format: FormatName,
-    /// A Wavefront OBJ model, y up, instead of the handout's; it is turned so that z is up. Needs
-    /// --light
-    #[arg(long, value_name = "FILE.obj", requires = "light")]
-    scene: Option<PathBuf>,
-    /// A point light of the scene: its position (z up), then its colour, white if left out; may be
-    /// given several times, photons are shared by brightness
-    #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
-          allow_hyphen_values = true)]
-    light: Vec<ModelLight>,
-    /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
-    #[arg(long)]
-    letter_of_the_handout: bool,
     /// No progress bars
     #[arg(long, short)]
     quiet: bool,
@@ -136,13 +115,7 @@ pub fn run(arguments: &RenderArgs) -> Result<u8, CliError> {
 }
 
 fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
-    let mut renderer = assignment8::create_renderer(scene(arguments)?);
-    renderer.seed = arguments.seed;
-    renderer.photon_count = arguments.photons;
-    renderer.max_photon_bounces = arguments.max_bounces;
-    if arguments.letter_of_the_handout {
-        renderer.reading = Reading::LETTER_OF_THE_HANDOUT;
-    }
+    let mut renderer = arguments.run.renderer()?;
     let photons = match arguments.photons_from {
         Some(_) => 0..0,
         None => photons(arguments, &renderer)?,
@@ -177,14 +150,6 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     }
     summary.seconds.write += start.elapsed().as_secs_f64();
     Ok(summary)
-}
-
-fn scene(arguments: &RenderArgs) -> Result<Scene, CliError> {
-    let Some(path) = &arguments.scene else {
-        return Ok(assignment8::create_scene());
-    };
-    let model = obj::load(path)?;
-    Ok(Scene::from_model(model, &arguments.light))
 }
 
 /// The photons to trace.
@@ -307,7 +272,7 @@ fn expected(
     if renderer.reading != Reading::REFERENCE {
         return None;
     }
-    if arguments.scene.is_none() {
+    if arguments.run.scene.is_built_in() {
         return Some(ExpectedTable::of_assignment8());
     }
     (facets(scene) <= MOST_FACETS_TO_EXPECT).then(|| {

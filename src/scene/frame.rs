@@ -57,4 +57,9 @@ impl Frame {
         }
         (scene.as_dvec3() / self.scale + self.origin).as_vec3()
     }
+
+    /// A length in the space of the scene as a length in world space.
+    pub fn length_to_world(&self, scene: f32) -> f32 {
+        (f64::from(scene) / self.scale) as f32
+    }
 }

@@ -1,0 +1,189 @@
+//! `photon-mapping compare`: where two lists, or two pictures, part.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::error::{CliError, print};
+use super::output::OutputFile;
+use super::run_args::RunArgs;
+use crate::compare::pictures::compare_pictures;
+use crate::compare::report::{Outcome, compare, scene_size};
+use crate::photon_list::provenance::provenance;
+use crate::photon_list::reader::{self, PhotonList};
+use crate::photon_list::record::{Columns, PhotonRecord};
+use crate::photon_list::trace::trace_list;
+use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+
+/// The exit code when the lists or pictures differ.
+const DIFFERENT: u8 = 1;
+/// How every PNG file starts.
+const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// The options of `compare`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 the same, bit for bit or within the tolerance; 1 different; \
+                        2 could not be read."
+)]
+pub struct CompareArgs {
+    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
+    /// with --seed or --photons a list alone, and the reference is traced on the spot
+    #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
+    files: Vec<PathBuf>,
+    /// How far apart two positions may be that count as one, as a part of the scene's longest edge
+    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
+    tolerance: f32,
+    /// Which part of the records may differ before the lists do
+    #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
+    allow: f32,
+    /// For pictures: where to write the difference picture
+    #[arg(long, value_name = "DIFF.png")]
+    out: Option<PathBuf>,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    run: RunArgs,
+}
+
+fn part(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| (0.0..=1.0).contains(number));
+    number.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+/// Compares, and prints the report.
+///
+/// # Errors
+/// When an input cannot be read or an output cannot be written.
+pub fn run(arguments: &CompareArgs) -> Result<u8, CliError> {
+    if let [reference, submission] = arguments.files.as_slice() {
+        match (is_picture(reference)?, is_picture(submission)?) {
+            (true, true) => return pictures(arguments, reference, submission),
+            (false, false) => {}
+            (is_first, _) => {
+                let list = if is_first { submission } else { reference };
+                return Err(CliError::Argument(format!(
+                    "{}: expected a picture like the other file, or two photon lists",
+                    list.display()
+                )));
+            }
+        }
+    }
+    if arguments.out.is_some() {
+        return Err(CliError::Argument("--out: expected two pictures to compare".to_owned()));
+    }
+    lists(arguments)
+}
+
+fn is_picture(path: &Path) -> Result<bool, CliError> {
+    let unreadable = |error| CliError::unreadable(path, error);
+    let mut file = File::open(path).map_err(unreadable)?;
+    // What a pipe has given once it does not give again.
+    if !file.metadata().map_err(unreadable)?.is_file() {
+        return Ok(false);
+    }
+    let mut start = [0; 8];
+    match file.read_exact(&mut start) {
+        Ok(()) => Ok(start == PNG),
+        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(false),
+        Err(error) => Err(unreadable(error)),
+    }
+}
+
+fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
+    let mut renderer = arguments.run.renderer()?;
+    let (reference, submission) = match arguments.files.as_slice() {
+        [reference, submission] => {
+            name_run(arguments, reference, &mut renderer);
+            (reader::load(reference)?, submission)
+        }
+        [submission, ..] if arguments.run.seed.is_some() || arguments.run.photons.is_some() => {
+            if is_picture(submission)? {
+                let submission = submission.display();
+                let message = format!("{submission}: expected a photon list, found a picture");
+                return Err(CliError::Argument(message));
+            }
+            (trace(&renderer), submission)
+        }
+        _ => {
+            return Err(CliError::Argument(
+                "expected REFERENCE and SUBMISSION, or --seed and --photons in place of REFERENCE"
+                    .to_owned(),
+            ));
+        }
+    };
+    let submission = reader::load(submission)?;
+    let tolerance = arguments.tolerance * scene_size(&renderer.stored_scene);
+    let report = compare(&reference, &submission, Some(&renderer), tolerance, arguments.allow);
+    finish(arguments, &report, &report.text(), report.outcome)
+}
+
+/// Sets what the arguments leave open to what the list `reference` says of its run.
+fn name_run(arguments: &CompareArgs, reference: &Path, renderer: &mut PhotonMappingRenderer) {
+    let Some(provenance) = provenance(reference) else { return };
+    if arguments.run.seed.is_none() {
+        renderer.seed = provenance.seed;
+    }
+    if arguments.run.photons.is_none() {
+        renderer.photon_count = provenance.emitted;
+    }
+    if arguments.run.max_bounces.is_none() {
+        renderer.max_photon_bounces = provenance.max_bounces;
+    }
+}
+
+fn trace(renderer: &PhotonMappingRenderer) -> PhotonList {
+    let mut records: Vec<PhotonRecord> = Vec::new();
+    let traced: Result<(), std::convert::Infallible> =
+        trace_list(renderer, 0..renderer.emitted(), |piece, _| {
+            records.extend_from_slice(piece);
+            Ok(())
+        });
+    let Ok(()) = traced;
+    let columns =
+        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
+    PhotonList { columns, records }
+}
+
+fn pictures(arguments: &CompareArgs, reference: &Path, submission: &Path) -> Result<u8, CliError> {
+    let (report, difference) =
+        compare_pictures(&read_picture(reference)?, &read_picture(submission)?);
+    if let Some((path, difference)) = arguments.out.as_ref().zip(difference) {
+        let mut file = OutputFile::create(path)?;
+        let mut png = io::BufWriter::new(file.file());
+        let written = difference.write_to(&mut png, image::ImageFormat::Png);
+        let flushed = written.map_err(io::Error::other).and_then(|()| io::Write::flush(&mut png));
+        drop(png);
+        flushed.map_err(|error| CliError::unwritable(path, error))?;
+        file.persist()?;
+    }
+    finish(arguments, &report, &report.text(), report.outcome)
+}
+
+fn read_picture(path: &Path) -> Result<image::RgbImage, CliError> {
+    let file = File::open(path).map_err(|error| CliError::unreadable(path, error))?;
+    let reader = image::ImageReader::with_format(io::BufReader::new(file), image::ImageFormat::Png);
+    let picture = reader.decode().map_err(|error| {
+        CliError::Argument(format!("{}: expected a PNG picture: {error}", path.display()))
+    })?;
+    Ok(picture.into_rgb8())
+}
+
+fn finish(
+    arguments: &CompareArgs,
+    report: &impl Serialize,
+    text: &str,
+    outcome: Outcome,
+) -> Result<u8, CliError> {
+    if arguments.json {
+        let json = serde_json::to_string(report).expect("a report has only plain values");
+        print(&(json + "\n"))?;
+    } else {
+        print(text)?;
+    }
+    Ok(if outcome == Outcome::Different { DIFFERENT } else { 0 })
+}

@@ -1,0 +1,83 @@
+//! The options that say which run is meant; several verbs share them.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::CliError;
+use super::values;
+use crate::assignment8;
+use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::reading::Reading;
+use crate::scene::Scene;
+use crate::scene::obj::{self, ModelLight};
+
+/// Which scene is meant.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// A Wavefront OBJ model, y up, instead of the handout's; it is turned so that z is up. Needs
+    /// --light
+    #[arg(long, value_name = "FILE.obj", requires = "light")]
+    scene: Option<PathBuf>,
+    /// A point light of the scene: its position (z up), then its colour, white if left out; may be
+    /// given several times, photons are shared by brightness
+    #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
+          allow_hyphen_values = true)]
+    light: Vec<ModelLight>,
+}
+
+impl SceneArgs {
+    /// Whether the handout's scene is meant.
+    pub fn is_built_in(&self) -> bool {
+        self.scene.is_none()
+    }
+
+    /// The scene.
+    ///
+    /// # Errors
+    /// When the model cannot be read.
+    pub fn load(&self) -> Result<Scene, CliError> {
+        match &self.scene {
+            None => Ok(assignment8::create_scene()),
+            Some(path) => Ok(Scene::from_model(obj::load(path)?, &self.light)),
+        }
+    }
+}
+
+/// Which run of the reference is meant.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The key of all random numbers, a whole number below 2^64 [default: 148]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// How many photons all lights send out together, up to 2^32 - 1 [default: 1000000]
+    #[arg(long, value_name = "N",
+          value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
+    pub photons: Option<u64>,
+    /// How often a photon may bounce at most, 0 to 1000 times [default: 1000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(i32).range(0..=1000))]
+    pub max_bounces: Option<i32>,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
+    #[arg(long)]
+    pub letter_of_the_handout: bool,
+}
+
+impl RunArgs {
+    /// The renderer of this run, its photon map still empty.
+    ///
+    /// # Errors
+    /// When the model cannot be read.
+    pub fn renderer(&self) -> Result<PhotonMappingRenderer, CliError> {
+        let mut renderer = assignment8::create_renderer(self.scene.load()?);
+        renderer.seed = self.seed.unwrap_or(assignment8::SEED);
+        renderer.photon_count = self.photons.unwrap_or(assignment8::PHOTON_COUNT);
+        renderer.max_photon_bounces = self.max_bounces.unwrap_or(assignment8::MAX_PHOTON_BOUNCES);
+        if self.letter_of_the_handout {
+            renderer.reading = Reading::LETTER_OF_THE_HANDOUT;
+        }
+        Ok(renderer)
+    }
+}

@@ -1,0 +1,268 @@
+//! `compare` as a user runs it.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use support::{fails, folder, json, reference_csv, run_line, stdout};
+
+/// The reference list of 20,000 photons with the lines changed by `change` (the header first),
+/// written beside it.
+fn changed(reference: &Path, name: &str, change: impl FnOnce(&mut Vec<String>)) -> PathBuf {
+    let text = fs::read_to_string(reference).expect("the list can be read");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    change(&mut lines);
+    let path = reference.with_file_name(name);
+    fs::write(&path, lines.join("\n") + "\n").expect("the list can be written");
+    path
+}
+
+/// Line `line` with column `column` set to `value`.
+fn with_cell(line: &str, column: usize, value: &str) -> String {
+    let mut cells: Vec<_> = line.split(',').collect();
+    cells[column] = value;
+    cells.join(",")
+}
+
+/// The columns `columns` of every line.
+fn keep_columns(lines: &mut Vec<String>, columns: &[usize]) {
+    for line in lines {
+        let cells: Vec<_> = line.split(',').collect();
+        let kept: Vec<_> = columns.iter().map(|column| cells[*column]).collect();
+        *line = kept.join(",");
+    }
+}
+
+fn positions_only(lines: &mut Vec<String>) {
+    keep_columns(lines, &[0, 1, 2]);
+}
+
+fn count(report: &Value, name: &str) -> u64 {
+    report[name].as_u64().unwrap_or_else(|| panic!("{name}: expected a count in {report}"))
+}
+
+/// Matched, missing, extra and moved.
+fn counts(report: &Value) -> [u64; 4] {
+    ["matched", "missing", "extra", "moved"].map(|name| count(report, name))
+}
+
+#[test]
+fn the_same_list_is_identical_in_either_format() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let line = "render --quiet --json --size 1x1 --photons 20000 --out {}";
+    let summary = json(run_line(line, &[folder.path()]).success());
+    let ply = folder.path().join("photons.ply");
+    let text = stdout(run_line("compare {} {}", &[&csv, &ply]).code(0));
+    assert!(text.starts_with("identical: "), "{text}");
+    assert!(text.contains(summary["sha256"].as_str().expect("a hash")), "{text}");
+    let line = "compare --json --photons 20000 {}";
+    let report = json(run_line(line, &[&ply]).code(0));
+    assert_eq!(report["outcome"], "identical");
+    assert_eq!(report["sha256"], summary["sha256"]);
+    assert_eq!(count(&report, "matched"), count(&summary, "stored"));
+}
+
+#[test]
+fn rounding_stays_within_the_tolerance() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let rounded = changed(&csv, "rounded.csv", |lines| {
+        let x: f32 = lines[5].split(',').next().expect("x").parse().expect("a number");
+        lines[5] = with_cell(&lines[5], 0, &(x + 1e-5).to_string());
+    });
+    let report = json(run_line("compare --json {} {}", &[&csv, &rounded]).code(0));
+    assert_eq!(report["outcome"], "within-tolerance");
+    let report = json(run_line("compare --json --tolerance 0 {} {}", &[&csv, &rounded]).code(1));
+    assert_eq!(count(&report, "moved"), 1);
+}
+
+/// The point of it all: one missing record puts none of those after it out of step.
+#[test]
+fn missing_extra_and_moved_records_are_counted_with_and_without_numbers() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let stored = fs::read_to_string(&csv).expect("the list").lines().count() as u64 - 1;
+    let edit = |lines: &mut Vec<String>| {
+        // From the end on, so that the numbers of the lines stay right.
+        lines[700] = with_cell(&lines[700], 2, "0.777");
+        lines.insert(500, with_cell(&lines[400], 0, "0.123"));
+        lines.remove(300);
+        lines.remove(10);
+    };
+    let numbered = changed(&csv, "numbered.csv", edit);
+    let positions = changed(&csv, "positions.csv", |lines| {
+        edit(lines);
+        positions_only(lines);
+    });
+    let without_bounce = changed(&csv, "without_bounce.csv", |lines| {
+        edit(lines);
+        keep_columns(lines, &[9, 0, 1, 2]);
+    });
+    for list in [&numbered, &positions, &without_bounce] {
+        let report = json(run_line("compare --json --photons 20000 {}", &[list]).code(1));
+        assert_eq!(counts(&report), [stored - 3, 2, 1, 1], "{}", list.display());
+    }
+    // Where photons are numbered, their order in the file means nothing.
+    let reversed = changed(&csv, "reversed.csv", |lines| lines[1..].reverse());
+    run_line("compare {} {}", &[&csv, &reversed]).code(0);
+}
+
+#[test]
+fn the_first_divergence_is_explained_from_the_path() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let shorter = changed(&csv, "shorter.csv", |lines| {
+        lines.remove(1);
+    });
+    let first = fs::read_to_string(&csv).expect("the list").lines().nth(1).map(str::to_owned);
+    let first = first.expect("a record");
+    let photon: u64 = first.split(',').nth(9).expect("a photon").parse().expect("a number");
+    let line = "compare --json --photons 20000 {}";
+    let divergence = &json(run_line(line, &[&shorter]).code(1))["first_divergence"];
+    assert_eq!((divergence["photon"].as_u64(), &divergence["bounce"]), (Some(photon), &1.into()));
+    assert_eq!(divergence["section"], "Photon Scattering/Absorption");
+    assert!(divergence["reference"].as_str().expect("text").contains("< P_r"), "{divergence}");
+
+    let line = "compare --json --allow 0.01 --photons 20000 {}";
+    assert_eq!(json(run_line(line, &[&shorter]).code(0))["outcome"], "within-tolerance");
+    let text = stdout(run_line("compare --allow 0.01 {} {}", &[&csv, &shorter]).code(0));
+    assert!(text.starts_with("the same but for the few"), "{text}");
+
+    // A CSV file does not name its run; without it, the records alone are told.
+    let report = json(run_line("compare --json --seed 7 {} {}", &[&csv, &shorter]).code(1));
+    assert!(report["first_divergence"]["section"].is_null());
+    assert!(report["note"].as_str().expect("a note").contains("--seed"));
+}
+
+#[test]
+fn a_list_of_another_seed_is_called_so() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let positions = changed(&csv, "positions.csv", positions_only);
+    let line = "compare --json --seed 149 --photons 20000 {}";
+    let report = json(run_line(line, &[&positions]).code(1));
+    assert_eq!(report["first_divergence"]["certain"], false);
+    assert!(report["note"].as_str().expect("a note").contains("another generator, seed"));
+}
+
+#[test]
+fn a_ply_list_names_its_run() {
+    let folder = folder();
+    let line = "render --quiet --size 1x1 --seed 5 --photons 20000 --max-bounces 9 --out {}";
+    run_line(line, &[folder.path()]).success();
+    let ply = folder.path().join("photons.ply");
+    let csv = folder.path().join("letter");
+    let line = "render --quiet --size 1x1 --seed 5 --photons 20000 --max-bounces 9 \
+                --letter-of-the-handout --out {}";
+    run_line(line, &[&csv]).success();
+    let report = json(run_line("compare --json {} {}", &[&ply, &csv.join("photons.ply")]).code(1));
+    let reading = "t and b to the letter of the handout, not normalised";
+    assert_eq!(report["reading"], reading);
+    assert_eq!(report["first_divergence"]["section"], "Hemisphere Ray Transformation");
+}
+
+#[test]
+fn wrong_values_are_counted_and_are_matters_of_storage() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let intensity = changed(&csv, "intensity.csv", |lines| {
+        for line in &mut lines[1..] {
+            *line = with_cell(line, 4, "0.5");
+        }
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&intensity]).code(1));
+    assert_eq!(count(&report, "wrong_intensity"), count(&report, "reference_records"));
+    assert_eq!(count(&report, "matched"), count(&report, "reference_records"));
+    assert_eq!(report["first_divergence"]["section"], "Photon Storage");
+    let to_light = changed(&csv, "to_light.csv", |lines| {
+        lines[3] = with_cell(&lines[3], 7, "0.5");
+        lines[4] = with_cell(&lines[4], 7, "nan");
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&to_light]).code(1));
+    assert_eq!(count(&report, "wrong_to_light"), 2);
+}
+
+#[test]
+fn what_is_not_a_number_is_counted() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    for with_numbers in [true, false] {
+        let list = changed(&csv, "nan.csv", |lines| {
+            for line in &mut lines[20..40] {
+                *line = with_cell(line, 0, "-nan(ind)");
+            }
+            if !with_numbers {
+                positions_only(lines);
+            }
+        });
+        let report = json(run_line("compare --json --photons 20000 {}", &[&list]).code(1));
+        assert_eq!((count(&report, "not_finite"), count(&report, "moved")), (20, 20));
+        run_line("compare {} {}", &[&list, &list]).code(0);
+    }
+}
+
+#[test]
+fn empty_lists_can_be_compared() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let empty = changed(&csv, "empty.csv", |lines| lines.truncate(1));
+    run_line("compare {} {}", &[&empty, &empty]).code(0);
+    let report = json(run_line("compare --json {} {}", &[&csv, &empty]).code(1));
+    assert_eq!(count(&report, "missing"), count(&report, "reference_records"));
+    run_line("compare {} {}", &[&empty, &csv]).code(1);
+}
+
+#[test]
+fn pictures_are_compared_dot_by_dot() {
+    let folder = folder();
+    let render = |name: &str, photons: &str| {
+        let out = folder.path().join(name);
+        let line = "render --quiet --size 160x120 --photons {} --out {}";
+        run_line(line, &[Path::new(photons), &out]).success();
+        out.join("assignment8.png")
+    };
+    let (few, many) = (render("few", "20000"), render("many", "40000"));
+    run_line("compare {} {}", &[&few, &few]).code(0);
+    let out = folder.path().join("difference.png");
+    let report = json(run_line("compare --json {} {} --out {}", &[&few, &many, &out]).code(1));
+    let extra = count(&report, "dots_extra");
+    assert!(extra > 10, "{report}");
+    assert_eq!(count(&report, "dots_missing"), 0);
+    assert_eq!(count(&report, "differing_pixels"), extra);
+    let picture = image::open(&out).expect("a picture").into_rgb8();
+    let red = picture.pixels().filter(|pixel| pixel.0 == [255, 0, 0]).count() as u64;
+    assert_eq!(red, extra);
+    let text = stdout(run_line("compare {} {}", &[&many, &few]).code(1));
+    assert!(text.contains(&format!("missing  {extra}")), "{text}");
+    let small = folder.path().join("small");
+    run_line("render --quiet --size 8x6 --photons 10 --out {}", &[&small]).success();
+    let text = stdout(run_line("compare {} {}", &[&few, &small.join("assignment8.png")]).code(1));
+    assert!(text.contains("160 x 120") && text.contains("8 x 6"), "{text}");
+}
+
+#[test]
+fn bad_input_is_refused_in_one_line() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 1000);
+    let picture = folder.path().join("assignment8.png");
+    let garbage = folder.path().join("garbage.csv");
+    fs::write(&garbage, "x,y\n1,2\n").expect("can be written");
+    let broken = folder.path().join("broken.png");
+    fs::write(&broken, b"\x89PNG\r\n\x1a\nnothing").expect("can be written");
+    let nowhere = folder.path().join("nowhere.csv");
+    fails("compare", &[], &["<FILE>"]);
+    fails("compare {}", &[&csv], &["--seed", "REFERENCE"]);
+    fails("compare {} {}", &[&csv, &nowhere], &["nowhere.csv", "cannot be read"]);
+    fails("compare --seed 1 {}", &[&nowhere], &["nowhere.csv", "cannot be read"]);
+    fails("compare {} {}", &[&csv, &garbage], &["garbage.csv", "'z'"]);
+    fails("compare {} {}", &[&csv, folder.path()], &["cannot be read"]);
+    fails("compare {} {}", &[&csv, &picture], &["photons.csv", "expected a picture"]);
+    fails("compare --seed 1 {}", &[&picture], &["expected a photon list"]);
+    fails("compare {} {}", &[&picture, &broken], &["broken.png", "PNG"]);
+    fails("compare {} {} --out x.png", &[&csv, &csv], &["--out", "pictures"]);
+    fails("compare {} {} --tolerance 2", &[&csv, &csv], &["--tolerance", "from 0 to 1"]);
+    fails("compare {} {} {}", &[&csv, &csv, &csv], &["photons.csv"]);
+}
