@@ -1,6 +1,7 @@
 //! The command line: a file for every verb, each of which parses, calls and prints.
 
 pub mod error;
+pub mod merge;
 pub mod output;
 pub mod render;
 pub mod values;
@@ -31,6 +32,8 @@ struct Cli {
 enum Command {
     /// Trace the photons, write their list, and draw the picture
     Render(Box<render::RenderArgs>),
+    /// Join the lists, or the count-only summaries, of adjoining ranges of one run
+    Merge(merge::MergeArgs),
 }
 
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
@@ -52,6 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     let result = match cli.command {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
+        Some(Command::Merge(arguments)) => merge::run(&arguments),
     };
     match result {
         Ok(code) => code,

@@ -15,15 +15,17 @@ use super::values;
 use crate::assignment8;
 use crate::photon_list::reader;
 use crate::photon_list::record::PhotonRecord;
+use crate::photon_list::run::Run;
 use crate::photon_list::trace::trace_list;
 use crate::photon_list::writer::{Format, ListHash, ListWriter};
-use crate::rendering::image_writer::take_picture;
+use crate::rendering::lanes::picture::take_picture;
+use crate::rendering::lanes::width::Width;
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
 use crate::scene::lights::point_light::PointLight;
 use crate::scene::{Scene, obj};
-use crate::summary::{SurfaceSummary, Tally, table};
+use crate::summary::{Counts, SurfaceSummary, Tally, table};
 
 /// The options of `render`.
 #[derive(Debug, Args)]
@@ -72,6 +74,10 @@ pub struct RenderArgs {
     /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
     #[arg(long)]
     letter_of_the_handout: bool,
+    /// Write no list and draw no picture: only count. Memory does not grow with the number of
+    /// photons; `merge` adds up the JSON summaries of adjoining ranges
+    #[arg(long, conflicts_with_all = ["photons_from", "format", "size", "out"])]
+    count_only: bool,
     /// No progress bars
     #[arg(long, short)]
     quiet: bool,
@@ -91,23 +97,27 @@ enum FormatName {
 
 /// What a run did.
 #[derive(Debug, Serialize)]
-struct Summary {
-    seed: Option<u64>,
-    emitted: Option<u64>,
-    stored: u64,
-    sha256: Option<String>,
-    seconds: Seconds,
-    surfaces: Vec<SurfaceSummary>,
-    files: Vec<PathBuf>,
+pub(super) struct Summary {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) run: Option<Run>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) counts: Option<Counts>,
+    pub(super) seed: Option<u64>,
+    pub(super) emitted: Option<u64>,
+    pub(super) stored: u64,
+    pub(super) sha256: Option<String>,
+    pub(super) seconds: Seconds,
+    pub(super) surfaces: Vec<SurfaceSummary>,
+    pub(super) files: Vec<PathBuf>,
 }
 
 /// How long each phase took. The list's rows are written while later photons are traced; `write`
 /// is what remains to be done after that.
 #[derive(Debug, Default, Serialize)]
-struct Seconds {
-    trace: f64,
-    picture: f64,
-    write: f64,
+pub(super) struct Seconds {
+    pub(super) trace: f64,
+    pub(super) picture: f64,
+    pub(super) write: f64,
 }
 
 /// Renders, and prints the summary.
@@ -119,11 +129,16 @@ pub fn run(arguments: &RenderArgs) -> Result<u8, CliError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| CliError::Argument(format!("--threads: {error}")))?;
     let summary = pool.install(|| render(arguments))?;
-    if arguments.json {
-        let json = serde_json::to_string(&summary).expect("a summary has only plain values");
+    print_summary(&summary, arguments.json)
+}
+
+/// Prints `summary` and gives the exit code.
+pub(super) fn print_summary(summary: &Summary, as_json: bool) -> Result<u8, CliError> {
+    if as_json {
+        let json = serde_json::to_string(summary).expect("a summary has only plain values");
         print(&(json + "\n"))?;
     } else {
-        print(&text(&summary))?;
+        print(&text(summary))?;
     }
     Ok(0)
 }
@@ -135,6 +150,9 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     renderer.max_photon_bounces = arguments.max_bounces;
     if arguments.letter_of_the_handout {
         renderer.reading = Reading::LETTER_OF_THE_HANDOUT;
+    }
+    if arguments.count_only {
+        return count(arguments, &renderer);
     }
     let mut picture_file = OutputFile::create(&arguments.out.join("assignment8.png"))?;
     let (mut summary, list_file) = match &arguments.photons_from {
@@ -149,7 +167,8 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let (width, height) = arguments.size;
     let camera = assignment8::create_camera(width, height);
     let progress = progress(arguments, "picture", u64::from(height));
-    let picture = take_picture(&renderer, &camera, width, height, || progress.inc(1));
+    let (lanes, row_done) = (Width::widest(), || progress.inc(1));
+    let picture = take_picture(&renderer, lanes, &camera, width, height, row_done);
     progress.finish_and_clear();
     summary.seconds.picture = start.elapsed().as_secs_f64();
 
@@ -175,12 +194,11 @@ fn scene(arguments: &RenderArgs) -> Result<Scene, CliError> {
     Ok(Scene::new(model.mesh_objects, model.triangles, arguments.light.clone()))
 }
 
-/// Traces the list into a file that is not yet in its place, and fills the photon map.
-fn trace(
+/// The photons to trace.
+fn photons(
     arguments: &RenderArgs,
-    renderer: &mut PhotonMappingRenderer,
-) -> Result<(Summary, OutputFile), CliError> {
-    let start = Instant::now();
+    renderer: &PhotonMappingRenderer,
+) -> Result<Range<u64>, CliError> {
     let emitted = renderer.emitted();
     let photons = arguments.range.clone().unwrap_or(0..emitted);
     if photons.end > emitted {
@@ -189,6 +207,44 @@ fn trace(
             "--range {start}..{end}: expected an end of at most {emitted}, the photons of the run"
         )));
     }
+    Ok(photons)
+}
+
+/// Traces the photons and keeps nothing but their counts.
+fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Summary, CliError> {
+    let start = Instant::now();
+    let photons = photons(arguments, renderer)?;
+    let mut hash = ListHash::default();
+    let mut tally = tally(&renderer.stored_scene);
+    let progress = progress(arguments, "photons", photons.end - photons.start);
+    trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
+        hash.update_all(records);
+        records.iter().for_each(|record| tally.add(record));
+        progress.set_position(done);
+        Ok::<(), CliError>(())
+    })?;
+    progress.finish_and_clear();
+    let emitted = photons.end - photons.start;
+    Ok(Summary {
+        counts: Some(tally.counts()),
+        run: Some(Run::new(renderer, photons)),
+        seed: Some(renderer.seed),
+        emitted: Some(emitted),
+        stored: tally.stored(),
+        sha256: Some(hash.hex()),
+        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
+        surfaces: tally.surfaces(emitted, renderer.max_photon_bounces as usize, None),
+        files: Vec::new(),
+    })
+}
+
+/// Traces the list into a file that is not yet in its place, and fills the photon map.
+fn trace(
+    arguments: &RenderArgs,
+    renderer: &mut PhotonMappingRenderer,
+) -> Result<(Summary, OutputFile), CliError> {
+    let start = Instant::now();
+    let photons = photons(arguments, renderer)?;
     let (name, format) = match arguments.format {
         FormatName::Ply => ("photons.ply", Format::Ply),
         FormatName::Csv => ("photons.csv", Format::Csv),
@@ -203,11 +259,9 @@ fn trace(
     let mut writer =
         ListWriter::new(file.file(), format, comments(renderer, &photons)).map_err(unwritable)?;
     trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
-        for record in records {
-            hash.update(record);
-            tally.add(record);
-            positions.push(record.position);
-        }
+        hash.update_all(records);
+        records.iter().for_each(|record| tally.add(record));
+        positions.extend(records.iter().map(|record| record.position));
         progress.set_position(done);
         writer.write(records)
     })
@@ -217,6 +271,8 @@ fn trace(
     renderer.diffuse_map = PhotonMap::new(positions);
     let emitted = photons.end - photons.start;
     let summary = Summary {
+        run: None,
+        counts: None,
         seed: Some(renderer.seed),
         emitted: Some(emitted),
         stored: tally.stored(),
@@ -252,6 +308,8 @@ fn read_list(
     let stored = positions.len() as u64;
     renderer.diffuse_map = PhotonMap::new(positions);
     Ok(Summary {
+        run: None,
+        counts: None,
         seed: None,
         emitted: None,
         stored,
@@ -272,15 +330,7 @@ fn tally(scene: &Scene) -> Tally {
 
 /// What the header of a PLY list says of the run.
 fn comments(renderer: &PhotonMappingRenderer, photons: &Range<u64>) -> Vec<String> {
-    let version = env!("CARGO_PKG_VERSION");
-    let PhotonMappingRenderer { seed, max_photon_bounces, .. } = renderer;
-    let emitted = renderer.emitted();
-    let Range { start, end } = photons;
-    let mut comments = vec![
-        format!("photon-mapping {version}"),
-        format!("seed {seed} emitted {emitted} max_bounces {max_photon_bounces}"),
-        format!("range {start}..{end}"),
-    ];
+    let mut comments = Run::new(renderer, photons.clone()).comments();
     let mesh_objects = renderer.stored_scene.mesh_objects().iter().enumerate();
     comments.extend(mesh_objects.map(|(index, mesh)| format!("surface {index} {}", mesh.name)));
     comments
@@ -314,7 +364,9 @@ fn text(summary: &Summary) -> String {
     }
     let Seconds { trace, picture, write } = summary.seconds;
     let first = if summary.seed.is_some() { "trace" } else { "read" };
-    text += &format!("seconds: {first} {trace:.2}, picture {picture:.2}, write {write:.2}\n");
+    if trace + picture + write > 0.0 {
+        text += &format!("seconds: {first} {trace:.2}, picture {picture:.2}, write {write:.2}\n");
+    }
     for file in &summary.files {
         text += &format!("written: {}\n", file.display());
     }

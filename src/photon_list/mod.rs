@@ -8,5 +8,6 @@ pub mod error;
 pub mod ply;
 pub mod reader;
 pub mod record;
+pub mod run;
 pub mod trace;
 pub mod writer;

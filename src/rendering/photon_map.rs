@@ -87,7 +87,12 @@ impl PhotonMap {
 }
 
 fn cell(position: Vec3) -> [i64; 3] {
-    position.to_array().map(|coordinate| (coordinate / CELL).floor() as i64)
+    position.to_array().map(|coordinate| {
+        // `floor` is a call into a library on processors that need not have an instruction for it.
+        let cells = coordinate / CELL;
+        let towards_zero = cells as i64;
+        towards_zero - i64::from(cells < towards_zero as f32)
+    })
 }
 
 fn bucket(cell: [i64; 3], buckets: usize) -> usize {

@@ -127,9 +127,9 @@ impl NullaryFnOnce for Closest<'_> {
                 seen_z[lane] = shear_z[lane] * z;
             }
         }
-        hits.t = [f32::INFINITY; GROUP];
-        hits.triangle = [NONE; GROUP];
-        hits.is_doubtful = [0; GROUP];
+        let mut closest_t = [f32::INFINITY; GROUP];
+        let mut closest = [NONE; GROUP];
+        let mut doubt = [0; GROUP];
         for (index, triangle) in scene.triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(|corner| &hits.seen[corner as usize]);
             for lane in 0..GROUP {
@@ -138,18 +138,28 @@ impl NullaryFnOnce for Closest<'_> {
                 let u = cx * by - cy * bx;
                 let v = ax * cy - ay * cx;
                 let w = bx * ay - by * ax;
-                let is_doubtful = (u == 0.0) | (v == 0.0) | (w == 0.0);
-                let is_refused =
-                    ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0));
+                let is_negative = mask(u < 0.0) | mask(v < 0.0) | mask(w < 0.0);
+                let is_positive = mask(u > 0.0) | mask(v > 0.0) | mask(w > 0.0);
                 let determinant = u + v + w;
                 let t = (u * a[2][lane] + v * b[2][lane] + w * c[2][lane]) / determinant;
-                let is_closer = !is_refused & (determinant != 0.0) & (t > 0.0) & (t < hits.t[lane]);
-                hits.t[lane] = if is_closer { t } else { hits.t[lane] };
-                hits.triangle[lane] = if is_closer { index as u32 } else { hits.triangle[lane] };
-                hits.is_doubtful[lane] |= u32::from(is_doubtful);
+                let is_closer = !(is_negative & is_positive)
+                    & mask(determinant != 0.0)
+                    & mask(t > 0.0)
+                    & mask(t < closest_t[lane]);
+                let kept = closest_t[lane].to_bits() & !is_closer;
+                closest_t[lane] = f32::from_bits((t.to_bits() & is_closer) | kept);
+                closest[lane] = (index as u32 & is_closer) | (closest[lane] & !is_closer);
+                doubt[lane] |= mask(u == 0.0) | mask(v == 0.0) | mask(w == 0.0);
             }
         }
+        (hits.t, hits.triangle, hits.is_doubtful) = (closest_t, closest, doubt);
     }
+}
+
+/// All bits or none. Masks keep the compiler from branching where it should stay in lanes.
+#[inline(always)]
+pub(super) fn mask(condition: bool) -> u32 {
+    u32::from(condition).wrapping_neg()
 }
 
 /// The coordinates in the order of a ray that runs along `axis`: those of `ShearedRay::axes`.
@@ -182,6 +192,14 @@ fn turn(axis: i32, x: f32, y: f32, z: f32) -> (f32, f32, f32) {
 }
 
 impl Rays {
+    /// Puts `ray` into `lane`. Its end is not kept.
+    pub fn set(&mut self, lane: usize, ray: &Ray) {
+        for axis in 0..3 {
+            self.origin[axis][lane] = ray.position()[axis];
+            self.direction[axis][lane] = ray.ray_direction()[axis];
+        }
+    }
+
     /// The ray in `lane`.
     pub fn ray(&self, lane: usize) -> Ray {
         let of_lane = |columns: &[Lanes; 3]| Vec3::from_array([0, 1, 2].map(|c| columns[c][lane]));

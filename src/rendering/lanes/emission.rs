@@ -37,6 +37,8 @@ pub struct Emit<'a> {
     pub seed: u64,
     /// The number of the first photon; [`GROUP`] follow, and all are below 2^32 or not looked at.
     pub first: u32,
+    /// Where the blocks go.
+    pub words: &'a mut [[u32; GROUP]; WORDS],
     /// Where the points go.
     pub emission: &'a mut Emission,
 }
@@ -46,13 +48,13 @@ impl NullaryFnOnce for Emit<'_> {
 
     #[inline(always)]
     fn call(self) {
+        let words = self.words;
         let Emission { point, drawn, next } = self.emission;
-        let mut words = [[0; GROUP]; WORDS];
         let mut photons = [0; GROUP];
         for (lane, photon) in photons.iter_mut().enumerate() {
             *photon = self.first.wrapping_add(lane as u32);
         }
-        chacha::blocks(self.seed, &photons, &[0; GROUP], &mut words);
+        chacha::blocks(self.seed, &photons, &[0; GROUP], words);
         let [xs, ys, zs] = point;
         let [next_0, next_1, next_2] = next;
         for lane in 0..GROUP {

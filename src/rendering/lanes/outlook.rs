@@ -22,6 +22,7 @@
 
 use glam::Vec3;
 
+use super::closest_hit::{NONE, mask};
 use crate::scene::Scene;
 use crate::scene::triangle::{ShearedRay, meet};
 
@@ -29,8 +30,9 @@ use crate::scene::triangle::{ShearedRay, meet};
 const EDGE: usize = 32;
 /// How many cells there are.
 const CELLS: usize = 6 * EDGE * EDGE;
-/// How far a cell reaches over its ends: more than what rounding moves a shear in [`cell`].
-const MARGIN: f32 = 1.0 / 4_194_304.0;
+/// How far a cell reaches over its ends, 2^-16: four times what [`step`] moves a shear by shrinking
+/// the grid and rounding.
+const MARGIN: f32 = 1.0 / 65_536.0;
 /// Coordinates below this, 2^-25, may underflow in the edge functions.
 const SMALLEST: f32 = 1.0 / 33_554_432.0;
 /// Coordinates beyond this may overflow in them.
@@ -105,7 +107,13 @@ impl ShearedDirection {
 /// The place along an edge of the grid of the shear `shear`, in [-1, 1].
 #[inline(always)]
 fn step(shear: f32) -> i32 {
-    (((shear + 1.0) * (EDGE as f32 / 2.0)) as i32).min(EDGE as i32 - 1)
+    // 2^18 - 1 parts in 2^18, so that the shear 1 stays within the last cell.
+    const PLACES: f32 = EDGE as f32 / 2.0 * (1.0 - 1.0 / 262_144.0);
+    // Adding 1.5 * 2^23 rounds to a whole number and leaves it in the lowest bits: a conversion
+    // with its checks for overflow would not stay in lanes.
+    const WHOLE: f32 = 12_582_912.0;
+    let place = (shear + 1.0) * PLACES - 0.5;
+    (place + WHOLE).to_bits() as i32 & (EDGE as i32 - 1)
 }
 
 impl Outlook {
@@ -164,23 +172,40 @@ impl Outlook {
         let ShearedDirection { cell, shear } = direction;
         let cell = cell as usize;
         let corners = &self.corners[cell / (2 * EDGE * EDGE)];
-        let mut closest = None;
         let mut closest_t = f32::INFINITY;
-        for &triangle in &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize]
-        {
-            let seen = corners[triangle as usize].map(|corner| {
+        let mut closest = NONE;
+        let candidates =
+            &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize];
+        for &triangle in candidates {
+            let [a, b, c] = corners[triangle as usize].map(|corner| {
                 Vec3::new(
                     corner.x - shear.x * corner.z,
                     corner.y - shear.y * corner.z,
                     shear.z * corner.z,
                 )
             });
-            if let Some(t) = meet(seen).filter(|t| *t < closest_t) {
-                closest_t = t;
-                closest = Some((triangle, t));
+            // The test of `meet` without its branches: which of two triangles a ray meets cannot be
+            // predicted.
+            let u = c.x * b.y - c.y * b.x;
+            let v = a.x * c.y - a.y * c.x;
+            let w = b.x * a.y - b.y * a.x;
+            let determinant = u + v + w;
+            let mut t = (u * a.z + v * b.z + w * c.z) / determinant;
+            let is_refused = ((u < 0.0) | (v < 0.0) | (w < 0.0))
+                & ((u > 0.0) | (v > 0.0) | (w > 0.0))
+                | (determinant == 0.0);
+            let mut is_met = !is_refused & (t > 0.0);
+            if (u == 0.0) | (v == 0.0) | (w == 0.0) {
+                let second_look = meet([a, b, c]);
+                is_met = second_look.is_some();
+                t = second_look.unwrap_or(t);
             }
+            let is_closer = mask(is_met & (t < closest_t));
+            closest_t =
+                f32::from_bits((t.to_bits() & is_closer) | (closest_t.to_bits() & !is_closer));
+            closest = (triangle & is_closer) | (closest & !is_closer);
         }
-        closest
+        (closest != NONE).then_some((closest, closest_t))
     }
 }
 

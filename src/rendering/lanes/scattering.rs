@@ -28,26 +28,29 @@ impl NullaryFnOnce for Scatter<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { words, point, frame, offset, rays } = self;
-        let [origin_x, origin_y, origin_z] = &mut rays.origin;
-        let [direction_x, direction_y, direction_z] = &mut rays.direction;
         for lane in 0..GROUP {
             let (u1, u2) = (number(words[0][lane]), number(words[1][lane]));
             let r = u1.sqrt();
             let (sine, cosine) = sine_and_cosine(2.0 * std::f32::consts::PI * u2);
             let (x, y, z) = (r * cosine, r * sine, (1.0 - u1).sqrt());
             // Mat3 * Vec3 sums its columns from the first to the last.
-            let across = |axis: usize| {
-                frame[axis][lane] * x + frame[axis + 3][lane] * y + frame[axis + 6][lane] * z
-            };
-            let direction = Vec3::new(across(0), across(1), across(2)).normalize();
-            let of_lane = |columns: [&[f32; GROUP]; 3]| {
-                Vec3::new(columns[0][lane], columns[1][lane], columns[2][lane])
-            };
-            let normal = of_lane([&frame[6], &frame[7], &frame[8]]);
-            let start = offset.start(of_lane([&point[0], &point[1], &point[2]]), normal, direction);
-            (direction_x[lane], direction_y[lane], direction_z[lane]) =
-                (direction.x, direction.y, direction.z);
-            (origin_x[lane], origin_y[lane], origin_z[lane]) = (start.x, start.y, start.z);
+            let dx = frame[0][lane] * x + frame[3][lane] * y + frame[6][lane] * z;
+            let dy = frame[1][lane] * x + frame[4][lane] * y + frame[7][lane] * z;
+            let dz = frame[2][lane] * x + frame[5][lane] * y + frame[8][lane] * z;
+            let direction = Vec3::new(dx, dy, dz).normalize();
+            rays.direction[0][lane] = direction.x;
+            rays.direction[1][lane] = direction.y;
+            rays.direction[2][lane] = direction.z;
+        }
+        // Apart, because the kind of the offset is a branch.
+        for lane in 0..GROUP {
+            let hit = Vec3::new(point[0][lane], point[1][lane], point[2][lane]);
+            let normal = Vec3::new(frame[6][lane], frame[7][lane], frame[8][lane]);
+            let [x, y, z] = &rays.direction;
+            let start = offset.start(hit, normal, Vec3::new(x[lane], y[lane], z[lane]));
+            rays.origin[0][lane] = start.x;
+            rays.origin[1][lane] = start.y;
+            rays.origin[2][lane] = start.z;
         }
     }
 }

@@ -19,11 +19,15 @@ pub fn sine_and_cosine(angle: f32) -> (f32, f32) {
         + i32::from(bits > 0x40af_eddf);
     let rest = x - f64::from(quarter) * FRAC_PI_2;
     let (sine, cosine) = (sine_near_zero(rest), cosine_near_zero(rest));
-    // Negating is exact, and both polynomials are odd or even to the last bit.
-    let is_odd = quarter & 1 == 1;
-    let (sine, cosine) = if is_odd { (cosine, sine) } else { (sine, cosine) };
-    let sine = if quarter == 2 || quarter == 3 { -sine } else { sine };
-    let cosine = if quarter == 1 || quarter == 2 { -cosine } else { cosine };
+    // Negating is exact, and both polynomials are odd or even to the last bit. Masks and sign bits
+    // keep the compiler from branching where it should stay in lanes.
+    let quarter = quarter as u32;
+    let swap = (quarter & 1).wrapping_neg();
+    let difference = (sine.to_bits() ^ cosine.to_bits()) & swap;
+    let sine_sign = (quarter & 2) << 30;
+    let cosine_sign = ((quarter + 1) & 2) << 30;
+    let sine = f32::from_bits(sine.to_bits() ^ difference ^ sine_sign);
+    let cosine = f32::from_bits(cosine.to_bits() ^ difference ^ cosine_sign);
     // Below 2^-12 msun gives the angle and 1. There the polynomials round to the same.
     (sine, cosine)
 }

@@ -76,6 +76,7 @@ impl LaneTracer<'_> {
     fn emit(&self, light: &PointLight, outlook: &Outlook, photons: Range<u64>) -> Vec<Arrival> {
         let seed = self.renderer.seed;
         let mut emissions = vec![Emission::default(); GROUPS];
+        let mut words = [[0; emission::GROUP]; chacha::WORDS];
         let mut aims = Aims::default();
         let mut arrivals = Vec::new();
         for first in photons.clone().step_by(GROUPS * emission::GROUP) {
@@ -84,7 +85,7 @@ impl LaneTracer<'_> {
             let emissions = &mut emissions[..count.div_ceil(emission::GROUP)];
             for (group, emission) in emissions.iter_mut().enumerate() {
                 let first = first.wrapping_add((group * emission::GROUP) as u32);
-                self.width.run(Emit { seed, first, emission });
+                self.width.run(Emit { seed, first, words: &mut words, emission });
             }
             self.try_again(first, count, emissions);
             for (group, emission) in emissions.iter().enumerate() {
