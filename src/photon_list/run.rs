@@ -27,15 +27,13 @@ pub struct Run {
 impl Run {
     /// The photons `range` of the run of `renderer`.
     pub fn new(renderer: &PhotonMappingRenderer, range: Range<u64>) -> Self {
-        // The debug format of floats has as many digits as bring back the same bits.
-        let scene = format!("{:?} {:?}", renderer.stored_scene, renderer.reading);
-        let digest = Sha256::digest(scene);
+        let digest = scene_digest(renderer);
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed: renderer.seed,
             emitted: renderer.emitted(),
             max_bounces: renderer.max_photon_bounces,
-            scene: digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect(),
+            scene: digest.into_iter().map(|byte| format!("{byte:02x}")).collect(),
             range,
         }
     }
@@ -93,4 +91,22 @@ impl Run {
         let (first, last) = (order[0], order[order.len() - 1]);
         Ok(Self { range: parts[first].range.start..parts[last].range.end, ..parts[first].clone() })
     }
+}
+
+/// The start of the SHA-256 of everything but the seed and the counts that decides where photons go.
+fn scene_digest(renderer: &PhotonMappingRenderer) -> [u8; 8] {
+    let scene = &renderer.stored_scene;
+    let mut hash = Sha256::new();
+    // The debug format of floats has as many digits as bring back the same bits.
+    hash.update(format!("{:?} {:?}", scene.mesh_objects(), scene.lights()));
+    hash.update(format!("{:?}", renderer.reading));
+    for triangle in scene.triangles() {
+        let [a, b, c] = triangle.vertices;
+        for vector in [a, b, c, triangle.normal] {
+            vector.to_array().iter().for_each(|float| hash.update(float.to_le_bytes()));
+        }
+        hash.update((triangle.parent_mesh_object as u64).to_le_bytes());
+    }
+    let digest = hash.finalize();
+    std::array::from_fn(|byte| digest[byte])
 }

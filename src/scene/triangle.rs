@@ -43,6 +43,18 @@ impl ShearedRay {
         }
     }
 
+    /// The axes of the scene that are x, y and z for this ray.
+    #[inline(always)]
+    pub(crate) fn order(&self) -> [usize; 3] {
+        self.axes
+    }
+
+    /// The shears along x and y, and the reciprocal of the direction along z.
+    #[inline(always)]
+    pub(crate) fn shear(&self) -> Vec3 {
+        self.shear
+    }
+
     /// The axes of the scene that become x, y and z for a ray in `direction`.
     #[inline(always)]
     pub(crate) fn axes(direction: Vec3) -> [usize; 3] {
