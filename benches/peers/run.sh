@@ -13,5 +13,5 @@ ours=$(cargo bench --bench peers --no-run --message-format=json |
     "$environment/bin/python" -c '
 import json, sys
 messages = [json.loads(line) for line in sys.stdin]
-print([m["executable"] for m in messages if m.get("executable")][-1])')
+print([m["executable"] for m in messages if m.get("target", {}).get("name") == "peers"][-1])')
 exec "$environment/bin/python" benches/peers/compare.py --ours "$ours" "$@"

@@ -57,7 +57,8 @@ pub fn run(arguments: &MergeArgs) -> Result<u8, CliError> {
             return Err(CliError::Argument(message));
         }
         None => {
-            return Err(CliError::Argument("merging lists needs --out FILE".to_owned()));
+            let message = "expected --out FILE to merge lists into, or summaries alone";
+            return Err(CliError::Argument(message.to_owned()));
         }
     };
     print_summary(&summary, arguments.json)

@@ -5,10 +5,12 @@ use pulp::NullaryFnOnce;
 use super::chacha::{self, WORDS};
 use super::width::Width;
 
+/// How many photons get a block at a time.
 const GROUP: usize = 16;
+const BLOCK: u32 = WORDS as u32;
 
 /// Three words in a row from the stream of one photon.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Draws {
     /// The photon's number.
     pub photon: u32,
@@ -16,6 +18,13 @@ pub struct Draws {
     pub drawn: u32,
     /// The words.
     pub words: [u32; 3],
+}
+
+impl Draws {
+    /// Whether one block has all three words.
+    pub fn fit_a_block(&self) -> bool {
+        self.drawn % BLOCK + 3 <= BLOCK
+    }
 }
 
 struct Blocks<'a> {
@@ -36,48 +45,53 @@ impl NullaryFnOnce for Blocks<'_> {
 
 /// Fills in the words of all `draws`.
 pub fn fill(width: Width, seed: u64, draws: &mut [Draws]) {
-    let block_words = WORDS as u32;
-    let mut astride = Vec::new();
-    for (start, group) in (0..).step_by(GROUP).zip(draws.chunks_mut(GROUP)) {
-        let blocks: Vec<_> = group.iter().map(|draws| draws.drawn / block_words).collect();
-        fill_from(width, seed, group.iter_mut(), &blocks);
-        let ends_later = |draws: &Draws| draws.drawn % block_words + 2 >= block_words;
-        astride.extend(
-            (start..)
-                .zip(group.iter())
-                .filter(|(_, draws)| ends_later(draws))
-                .map(|(index, _)| index),
-        );
-    }
-    for group in astride.chunks(GROUP) {
-        let mut copies: Vec<Draws> = group.iter().map(|index: &usize| draws[*index]).collect();
-        let blocks: Vec<_> = copies.iter().map(|draws| draws.drawn / block_words + 1).collect();
-        fill_from(width, seed, copies.iter_mut(), &blocks);
-        for (index, copy) in group.iter().zip(copies) {
-            draws[*index] = copy;
+    let mut words = [[0; GROUP]; WORDS];
+    let mut astride = [0; GROUP];
+    let mut waiting = 0;
+    for start in (0..draws.len()).step_by(GROUP) {
+        let mut places = [0; GROUP];
+        let count = GROUP.min(draws.len() - start);
+        for (lane, place) in places[..count].iter_mut().enumerate() {
+            *place = start + lane;
         }
+        fill_from(width, seed, draws, &places[..count], 0, &mut words);
+        for place in start..start + count {
+            if !draws[place].fit_a_block() {
+                astride[waiting] = place;
+                waiting += 1;
+                if waiting == GROUP {
+                    fill_from(width, seed, draws, &astride, 1, &mut words);
+                    waiting = 0;
+                }
+            }
+        }
+    }
+    if waiting > 0 {
+        fill_from(width, seed, draws, &astride[..waiting], 1, &mut words);
     }
 }
 
-/// Fills in what each of `draws` takes from its block of `blocks`.
-fn fill_from<'a>(
+/// Fills in what the draws at `places` take from the block `later` blocks after that of their first
+/// word.
+fn fill_from(
     width: Width,
     seed: u64,
-    draws: impl Iterator<Item = &'a mut Draws>,
-    block_of: &[u32],
+    draws: &mut [Draws],
+    places: &[usize],
+    later: u32,
+    words: &mut [[u32; GROUP]; WORDS],
 ) {
-    let draws: Vec<_> = draws.collect();
     let mut photons = [0; GROUP];
     let mut blocks = [0; GROUP];
-    for (lane, (draws, block)) in draws.iter().zip(block_of).enumerate() {
-        (photons[lane], blocks[lane]) = (draws.photon, *block);
+    for (lane, place) in places.iter().enumerate() {
+        (photons[lane], blocks[lane]) = (draws[*place].photon, draws[*place].drawn / BLOCK + later);
     }
-    let mut words = [[0; GROUP]; WORDS];
-    width.run(Blocks { seed, photons: &photons, blocks: &blocks, words: &mut words });
-    for (lane, draws) in draws.into_iter().enumerate() {
-        for (place, word) in (draws.drawn..).zip(&mut draws.words) {
-            if place / WORDS as u32 == blocks[lane] {
-                *word = words[place as usize % WORDS][lane];
+    width.run(Blocks { seed, photons: &photons, blocks: &blocks, words });
+    for (lane, place) in places.iter().enumerate() {
+        let draws = &mut draws[*place];
+        for (at, word) in (draws.drawn..).zip(&mut draws.words) {
+            if at / BLOCK == blocks[lane] {
+                *word = words[at as usize % WORDS][lane];
             }
         }
     }

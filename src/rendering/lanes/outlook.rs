@@ -41,12 +41,58 @@ const LARGEST: f32 = 1e9;
 /// The triangles of a scene as one light sees them.
 #[derive(Clone, Debug)]
 pub struct Outlook {
-    /// The corners seen from the light, once for each axis that a ray runs along.
-    corners: [Vec<[Vec3; 3]>; 3],
+    /// The triangles seen from the light, once for each axis that a ray runs along.
+    seen: [Vec<Seen>; 3],
     /// The triangles of cell c are `triangles[starts[c]..starts[c + 1]]`, in ascending order.
     starts: Vec<u32>,
     triangles: Vec<u32>,
     occupied: Vec<u8>,
+}
+
+/// The corners of a triangle, by coordinate. The fourth place fills a vector of four; it holds the
+/// first corner once more.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+struct Seen([[f32; 4]; 3]);
+
+impl Seen {
+    fn new([a, b, c]: &[Vec3; 3]) -> Self {
+        Self([0, 1, 2].map(|axis| [a[axis], b[axis], c[axis], a[axis]]))
+    }
+
+    /// The test of [`meet`] without its branches, since which of two triangles a ray meets cannot be
+    /// predicted: whether, and at which distance.
+    #[inline(always)]
+    fn meet(&self, shear: Vec3) -> (bool, f32) {
+        let Self([x, y, z]) = self;
+        let (mut sx, mut sy, mut sz) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        for corner in 0..4 {
+            sx[corner] = x[corner] - shear.x * z[corner];
+            sy[corner] = y[corner] - shear.y * z[corner];
+            sz[corner] = shear.z * z[corner];
+        }
+        // u, v, w, and u once more.
+        let (px, py) = ([sx[2], sx[0], sx[1], sx[2]], [sy[2], sy[0], sy[1], sy[2]]);
+        let (qx, qy) = ([sx[1], sx[2], sx[0], sx[1]], [sy[1], sy[2], sy[0], sy[1]]);
+        let mut edges = [0.0; 4];
+        for edge in 0..4 {
+            edges[edge] = px[edge] * qy[edge] - py[edge] * qx[edge];
+        }
+        let (mut is_negative, mut is_positive, mut is_zero) = (false, false, false);
+        for edge in edges {
+            is_negative |= edge < 0.0;
+            is_positive |= edge > 0.0;
+            is_zero |= edge == 0.0;
+        }
+        if is_zero {
+            let second_look = meet([0, 1, 2].map(|c| Vec3::new(sx[c], sy[c], sz[c])));
+            return (second_look.is_some(), second_look.unwrap_or(0.0));
+        }
+        let [u, v, w, _] = edges;
+        let determinant = u + v + w;
+        let t = (u * sz[0] + v * sz[1] + w * sz[2]) / determinant;
+        (!(is_negative & is_positive) & (determinant != 0.0) & (t > 0.0), t)
+    }
 }
 
 /// A ray from the light, ready for the triangle test.
@@ -156,7 +202,8 @@ impl Outlook {
         }
         let occupied = starts.windows(2).map(|ends| u8::from(ends[0] < ends[1])).collect();
         debug_assert_eq!(starts.len(), CELLS + 1);
-        Self { corners, starts, triangles, occupied }
+        let seen = corners.map(|corners| corners.iter().map(Seen::new).collect());
+        Self { seen, starts, triangles, occupied }
     }
 
     /// 1 if a ray through `cell` may meet anything, else 0.
@@ -171,35 +218,13 @@ impl Outlook {
     pub fn closest(&self, direction: ShearedDirection) -> Option<(u32, f32)> {
         let ShearedDirection { cell, shear } = direction;
         let cell = cell as usize;
-        let corners = &self.corners[cell / (2 * EDGE * EDGE)];
+        let seen = &self.seen[cell / (2 * EDGE * EDGE)];
         let mut closest_t = f32::INFINITY;
         let mut closest = NONE;
         let candidates =
             &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize];
         for &triangle in candidates {
-            let [a, b, c] = corners[triangle as usize].map(|corner| {
-                Vec3::new(
-                    corner.x - shear.x * corner.z,
-                    corner.y - shear.y * corner.z,
-                    shear.z * corner.z,
-                )
-            });
-            // The test of `meet` without its branches: which of two triangles a ray meets cannot be
-            // predicted.
-            let u = c.x * b.y - c.y * b.x;
-            let v = a.x * c.y - a.y * c.x;
-            let w = b.x * a.y - b.y * a.x;
-            let determinant = u + v + w;
-            let mut t = (u * a.z + v * b.z + w * c.z) / determinant;
-            let is_refused = ((u < 0.0) | (v < 0.0) | (w < 0.0))
-                & ((u > 0.0) | (v > 0.0) | (w > 0.0))
-                | (determinant == 0.0);
-            let mut is_met = !is_refused & (t > 0.0);
-            if (u == 0.0) | (v == 0.0) | (w == 0.0) {
-                let second_look = meet([a, b, c]);
-                is_met = second_look.is_some();
-                t = second_look.unwrap_or(t);
-            }
+            let (is_met, t) = seen[triangle as usize].meet(shear);
             let is_closer = mask(is_met & (t < closest_t));
             closest_t =
                 f32::from_bits((t.to_bits() & is_closer) | (closest_t.to_bits() & !is_closer));

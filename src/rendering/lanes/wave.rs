@@ -27,7 +27,14 @@ struct Arrival {
     /// Where it came from: the unit vector along which it flew.
     direction: Vec3,
     triangle: u32,
-    draws: Draws,
+}
+
+/// The photons that are on a surface after the same number of bounces, in order.
+#[derive(Clone, Debug, Default)]
+struct Arrivals {
+    places: Vec<Arrival>,
+    /// The numbers with which each goes on.
+    draws: Vec<Draws>,
 }
 
 impl LaneTracer<'_> {
@@ -47,25 +54,22 @@ impl LaneTracer<'_> {
         let mut by_bounce: Vec<Vec<PhotonRecord>> = Vec::new();
         for bounce in 1..=self.renderer.max_photon_bounces {
             arrivals = self.scatter(&arrivals);
-            if arrivals.is_empty() {
+            if arrivals.places.is_empty() {
                 break;
             }
             let bounce = u16::try_from(bounce).expect("a photon bounces at most 1000 times");
-            by_bounce
-                .push(arrivals.iter().map(|a| self.record(a, bounce, light_intensity)).collect());
+            let stored =
+                arrivals.places.iter().zip(&arrivals.draws).map(|(arrival, draws)| PhotonRecord {
+                    position: arrival.point,
+                    intensity: light_intensity,
+                    to_light: -arrival.direction,
+                    photon: draws.photon,
+                    bounce,
+                    surface: self.surface(arrival).mesh_object,
+                });
+            by_bounce.push(stored.collect());
         }
         join(&by_bounce, records);
-    }
-
-    fn record(&self, arrival: &Arrival, bounce: u16, light_intensity: Vec3) -> PhotonRecord {
-        PhotonRecord {
-            position: arrival.point,
-            intensity: light_intensity,
-            to_light: -arrival.direction,
-            photon: arrival.draws.photon,
-            bounce,
-            surface: self.surface(arrival).mesh_object,
-        }
     }
 
     fn surface(&self, arrival: &Arrival) -> &Surface {
@@ -73,12 +77,12 @@ impl LaneTracer<'_> {
     }
 
     /// Where the photons `photons` of `light` hit first, in order.
-    fn emit(&self, light: &PointLight, outlook: &Outlook, photons: Range<u64>) -> Vec<Arrival> {
+    fn emit(&self, light: &PointLight, outlook: &Outlook, photons: Range<u64>) -> Arrivals {
         let seed = self.renderer.seed;
         let mut emissions = vec![Emission::default(); GROUPS];
         let mut words = [[0; emission::GROUP]; chacha::WORDS];
         let mut aims = Aims::default();
-        let mut arrivals = Vec::new();
+        let mut arrivals = Arrivals::default();
         for first in photons.clone().step_by(GROUPS * emission::GROUP) {
             let count = (photons.end - first).min((GROUPS * emission::GROUP) as u64) as usize;
             let first = first as u32;
@@ -105,22 +109,30 @@ impl LaneTracer<'_> {
                         ShearedDirection { cell: aims.cell[lane], shear: of_lane(&aims.shear) };
                     if let Some((triangle, t)) = outlook.closest(sheared) {
                         let direction = of_lane(&aims.direction);
-                        arrivals.push(Arrival {
-                            point: Ray::new(light.position, direction).ray_position(t),
-                            direction,
-                            triangle,
-                            draws: Draws {
-                                photon: first + (start + lane) as u32,
-                                drawn: emission.drawn[lane],
-                                words: [0, 1, 2].map(|n| emission.next[n][lane]),
-                            },
+                        let point = Ray::new(light.position, direction).ray_position(t);
+                        arrivals.places.push(Arrival { point, direction, triangle });
+                        arrivals.draws.push(Draws {
+                            photon: first + (start + lane) as u32,
+                            drawn: emission.drawn[lane],
+                            words: [0, 1, 2].map(|n| emission.next[n][lane]),
                         });
                     }
                 }
             }
         }
-        self.draw_where(&mut arrivals, |draws| draws.drawn + 3 > chacha::WORDS as u32);
+        self.complete(&mut arrivals.draws);
         arrivals
+    }
+
+    /// Draws again what the first block was not long enough for.
+    fn complete(&self, draws: &mut [Draws]) {
+        let is_lacking = |draws: &Draws| draws.drawn + 3 > chacha::WORDS as u32;
+        let lacking: Vec<usize> = (0..draws.len()).filter(|at| is_lacking(&draws[*at])).collect();
+        let mut completed: Vec<Draws> = lacking.iter().map(|at| draws[*at]).collect();
+        draws::fill(self.width, self.renderer.seed, &mut completed);
+        for (at, completed) in lacking.into_iter().zip(completed) {
+            draws[at] = completed;
+        }
     }
 
     /// Goes on with the rejection loops for which the first block was not long enough.
@@ -155,33 +167,25 @@ impl LaneTracer<'_> {
         }
     }
 
-    /// Draws the next numbers of those of `arrivals` whose draws `is_lacking`.
-    fn draw_where(&self, arrivals: &mut [Arrival], is_lacking: impl Fn(&Draws) -> bool) {
-        let mut lacking: Vec<_> =
-            arrivals.iter_mut().map(|a| &mut a.draws).filter(|draws| is_lacking(draws)).collect();
-        let mut draws: Vec<_> = lacking.iter().map(|draws| **draws).collect();
-        draws::fill(self.width, self.renderer.seed, &mut draws);
-        for (lacking, draws) in lacking.iter_mut().zip(draws) {
-            **lacking = draws;
-        }
-    }
-
     /// Plays the roulette for all of `arrivals`, scatters those that survive, and gives what these
     /// hit next.
-    fn scatter(&self, arrivals: &[Arrival]) -> Vec<Arrival> {
-        let survivors: Vec<_> = arrivals
-            .iter()
-            .filter(|a| number(a.draws.words[0]) < self.surface(a).probability_of_reflection)
-            .collect();
+    fn scatter(&self, arrivals: &Arrivals) -> Arrivals {
+        let mut survivors = Vec::with_capacity(arrivals.places.len());
+        for (place, (arrival, draws)) in arrivals.places.iter().zip(&arrivals.draws).enumerate() {
+            if number(draws.words[0]) < self.surface(arrival).probability_of_reflection {
+                survivors.push(place);
+            }
+        }
         let mut words = [[0; closest_hit::GROUP]; 2];
         let mut point = [[0.0; closest_hit::GROUP]; 3];
         let mut frame = [[0.0; closest_hit::GROUP]; 9];
         let mut rays = Rays::default();
         let mut hits = Hits::default();
-        let mut next = Vec::new();
+        let mut next = Arrivals::default();
         for group in survivors.chunks(closest_hit::GROUP) {
-            for (lane, arrival) in group.iter().enumerate() {
-                [words[0][lane], words[1][lane]] = [arrival.draws.words[1], arrival.draws.words[2]];
+            for (lane, place) in group.iter().enumerate() {
+                let (arrival, draws) = (&arrivals.places[*place], &arrivals.draws[*place]);
+                [words[0][lane], words[1][lane]] = [draws.words[1], draws.words[2]];
                 for (column, coordinate) in point.iter_mut().zip(arrival.point.to_array()) {
                     column[lane] = coordinate;
                 }
@@ -199,20 +203,20 @@ impl LaneTracer<'_> {
             });
             self.width.run(Closest { scene: &self.corners, rays: &rays, hits: &mut hits });
             hits.settle(&self.renderer.stored_scene, &rays, group.len());
-            for (lane, arrival) in group.iter().enumerate() {
+            for (lane, place) in group.iter().enumerate() {
                 if hits.triangle[lane] != NONE {
                     let ray = rays.ray(lane);
-                    let Draws { photon, drawn, .. } = arrival.draws;
-                    next.push(Arrival {
+                    next.places.push(Arrival {
                         point: ray.ray_position(hits.t[lane]),
                         direction: ray.ray_direction(),
                         triangle: hits.triangle[lane],
-                        draws: Draws { photon, drawn: drawn + 3, words: [0; 3] },
                     });
+                    let Draws { photon, drawn, .. } = arrivals.draws[*place];
+                    next.draws.push(Draws { photon, drawn: drawn + 3, words: [0; 3] });
                 }
             }
         }
-        self.draw_where(&mut next, |_| true);
+        draws::fill(self.width, self.renderer.seed, &mut next.draws);
         next
     }
 }
