@@ -60,12 +60,14 @@ impl Tally {
         Counts { names, by_surface_and_bounce: counts, late_squares }
     }
 
-    /// Adds the counts of another piece of the run; `Err` when they are of other surfaces.
-    pub fn add_counts(&mut self, other: &Counts) -> Result<(), ()> {
+    /// Adds the counts of another piece of the run, and says whether they are of the same surfaces;
+    /// nothing is added if not.
+    #[must_use]
+    pub fn add_counts(&mut self, other: &Counts) -> bool {
         let surfaces = self.names.len();
         let has_columns = other.by_surface_and_bounce.len() == surfaces;
         if other.names != self.names || !has_columns || other.late_squares.len() != surfaces + 1 {
-            return Err(());
+            return false;
         }
         for (counts, other) in self.counts.iter_mut().zip(&other.by_surface_and_bounce) {
             counts.resize(counts.len().max(other.len()), 0);
@@ -75,7 +77,7 @@ impl Tally {
             .iter_mut()
             .zip(&other.late_squares)
             .for_each(|(sum, other)| *sum += other);
-        Ok(())
+        true
     }
 
     /// All photons counted.

@@ -156,8 +156,9 @@ fn merge_counts(arguments: &MergeArgs) -> Result<Summary, CliError> {
     let (order, whole) = join(arguments, &parts)?;
     let mut tally = Tally::new(pieces[order[0]].counts.names.iter().cloned());
     for piece in order {
-        let added = tally.add_counts(&pieces[piece].counts);
-        added.map_err(|()| malformed(&arguments.pieces[piece], "has other surfaces"))?;
+        if !tally.add_counts(&pieces[piece].counts) {
+            return Err(malformed(&arguments.pieces[piece], "has other surfaces"));
+        }
     }
     let counts = Some(tally.counts());
     Ok(Summary { counts, run: Some(whole.clone()), ..summary(&whole, &tally) })

@@ -39,7 +39,7 @@ impl NullaryFnOnce for Blocks<'_> {
 
     #[inline(always)]
     fn call(self) {
-        chacha::blocks(self.seed, self.photons, self.blocks, self.words);
+        chacha::blocks(self.seed, self.photons, |lane| self.blocks[lane], self.words);
     }
 }
 

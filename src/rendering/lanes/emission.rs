@@ -54,7 +54,8 @@ impl NullaryFnOnce for Emit<'_> {
         for (lane, photon) in photons.iter_mut().enumerate() {
             *photon = self.first.wrapping_add(lane as u32);
         }
-        chacha::blocks(self.seed, &photons, &[0; GROUP], words);
+        // The same block for all: what does not depend on the photon is computed once.
+        chacha::blocks(self.seed, &photons, |_| 0, words);
         let [xs, ys, zs] = point;
         let [next_0, next_1, next_2] = next;
         for lane in 0..GROUP {

@@ -110,7 +110,7 @@ impl Tracer<'_> {
             .enumerate()
             .map(|(lane, ray)| {
                 let (t, triangle) = (hits.t[lane], hits.triangle[lane]);
-                (triangle != NONE && t < ray.max_t).then(|| IntersectionState {
+                (triangle != NONE && t < ray.max_t).then_some(IntersectionState {
                     intersection_ray: *ray,
                     intersection_t: t,
                     intersected_primitive: triangle as usize,

@@ -82,7 +82,10 @@ impl LaneTracer<'_> {
         let mut emissions = vec![Emission::default(); GROUPS];
         let mut words = [[0; emission::GROUP]; chacha::WORDS];
         let mut aims = Aims::default();
-        let mut arrivals = Arrivals::default();
+        // Of the handout's photons, one in four arrives.
+        let expected = (photons.end - photons.start) as usize / 4;
+        let mut arrivals =
+            Arrivals { places: Vec::with_capacity(expected), draws: Vec::with_capacity(expected) };
         for first in photons.clone().step_by(GROUPS * emission::GROUP) {
             let count = (photons.end - first).min((GROUPS * emission::GROUP) as u64) as usize;
             let first = first as u32;
@@ -95,6 +98,7 @@ impl LaneTracer<'_> {
             for (group, emission) in emissions.iter().enumerate() {
                 self.width.run(Aim { point: &emission.point, aims: &mut aims });
                 let start = group * emission::GROUP;
+                // Without a branch, since which cells are empty cannot be predicted.
                 let mut lanes = [0; emission::GROUP];
                 let mut candidates = 0;
                 for lane in 0..emission::GROUP.min(count - start) {
@@ -107,16 +111,17 @@ impl LaneTracer<'_> {
                     };
                     let sheared =
                         ShearedDirection { cell: aims.cell[lane], shear: of_lane(&aims.shear) };
-                    if let Some((triangle, t)) = outlook.closest(sheared) {
-                        let direction = of_lane(&aims.direction);
-                        let point = Ray::new(light.position, direction).ray_position(t);
-                        arrivals.places.push(Arrival { point, direction, triangle });
-                        arrivals.draws.push(Draws {
-                            photon: first + (start + lane) as u32,
-                            drawn: emission.drawn[lane],
-                            words: [0, 1, 2].map(|n| emission.next[n][lane]),
-                        });
-                    }
+                    let Some((triangle, t)) = outlook.closest(sheared) else {
+                        continue;
+                    };
+                    let direction = of_lane(&aims.direction);
+                    let point = Ray::new(light.position, direction).ray_position(t);
+                    arrivals.places.push(Arrival { point, direction, triangle });
+                    arrivals.draws.push(Draws {
+                        photon: first + (start + lane) as u32,
+                        drawn: emission.drawn[lane],
+                        words: [0, 1, 2].map(|n| emission.next[n][lane]),
+                    });
                 }
             }
         }
