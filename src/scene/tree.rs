@@ -41,7 +41,9 @@ pub struct Tree {
     bounds: Bounds,
 }
 
+/// On the border of a cache line: in a large mesh most of the time is spent waiting for nodes.
 #[derive(Clone, Debug, PartialEq)]
+#[repr(align(64))]
 struct Node {
     /// The least and the greatest corners of the four boxes, by axis.
     ends: [[Four; 3]; 2],
