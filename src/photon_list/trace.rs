@@ -13,7 +13,7 @@ use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRendere
 /// How many photons a thread traces before it takes the next piece.
 const PIECE: u64 = 8192;
 /// How many pieces are in memory at once while the pieces before them are consumed.
-const PIECES_IN_WAVE: u64 = 32;
+const PIECES_IN_WAVE: u64 = 64;
 
 /// Traces the photons numbered `photons` on all threads of the current rayon pool and hands their
 /// records to `consume` in order, with the number of photons done so far. Memory does not grow with

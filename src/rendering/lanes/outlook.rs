@@ -18,7 +18,7 @@
 //!
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
 //! photon's direction are 0 or at least 2^-24, so they cannot where each coordinate is 0 or at least
-//! [`SMALLEST`]; a triangle with smaller ones is in every cell.
+//! 2^-25; a triangle with smaller ones is in every cell.
 
 use glam::Vec3;
 
