@@ -1,6 +1,6 @@
 //! A run held against what is expected: photons by surface and bounce.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::accuracy::Bounded;
 use crate::accuracy::table::ExpectedTable;
@@ -57,6 +57,32 @@ impl Tally {
         }
     }
 
+    /// What was counted, to be added up with the counts of other pieces of the run.
+    pub fn counts(&self) -> Counts {
+        let Self { names, counts, late_squares, .. } = self.clone();
+        Counts { names, by_surface_and_bounce: counts, late_squares }
+    }
+
+    /// Adds the counts of another piece of the run, and says whether they are of the same surfaces;
+    /// nothing is added if not.
+    #[must_use]
+    pub fn add_counts(&mut self, other: &Counts) -> bool {
+        let surfaces = self.names.len();
+        let has_columns = other.by_surface_and_bounce.len() == surfaces;
+        if other.names != self.names || !has_columns || other.late_squares.len() != surfaces + 1 {
+            return false;
+        }
+        for (counts, other) in self.counts.iter_mut().zip(&other.by_surface_and_bounce) {
+            counts.resize(counts.len().max(other.len()), 0);
+            counts.iter_mut().zip(other).for_each(|(count, other)| *count += other);
+        }
+        self.late_squares
+            .iter_mut()
+            .zip(&other.late_squares)
+            .for_each(|(sum, other)| *sum += other);
+        true
+    }
+
     /// All photons counted.
     pub fn stored(&self) -> u64 {
         self.counts.iter().flatten().sum()
@@ -109,6 +135,18 @@ impl Tally {
         let total = lines.pop().expect("the last line is the total");
         (lines, total)
     }
+}
+
+/// What a [`Tally`] has counted.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// The surfaces' names.
+    pub names: Vec<String>,
+    /// Photons stored, surface by bounce, the first bounce first.
+    pub by_surface_and_bounce: Vec<Vec<u64>>,
+    /// For each surface, then for all together: the sum over emitted photons of the square of how
+    /// many they stored beyond the bounces that have a column of their own.
+    pub late_squares: Vec<u64>,
 }
 
 struct Law {

@@ -4,6 +4,7 @@ pub mod compare;
 pub mod error;
 pub mod expect;
 pub mod explain;
+pub mod merge;
 pub mod output;
 pub mod render;
 pub mod run_args;
@@ -41,6 +42,8 @@ enum Command {
     Explain(Box<explain::ExplainArgs>),
     /// Compute how many hits are expected, without tracing a photon
     Expect(expect::ExpectArgs),
+    /// Join the lists, or the count-only summaries, of adjoining ranges of one run
+    Merge(merge::MergeArgs),
 }
 
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
@@ -65,6 +68,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Some(Command::Expect(arguments)) => expect::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
+        Some(Command::Merge(arguments)) => merge::run(&arguments),
     };
     match result {
         Ok(code) => code,

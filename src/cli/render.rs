@@ -18,15 +18,17 @@ use crate::accuracy::table::ExpectedTable;
 use crate::assignment8;
 use crate::photon_list::reader;
 use crate::photon_list::record::PhotonRecord;
+use crate::photon_list::run::Run;
 use crate::photon_list::trace::trace_list;
 use crate::photon_list::writer::{Format, ListHash, ListWriter};
-use crate::rendering::image_writer::take_picture;
+use crate::rendering::lanes::picture::take_picture;
+use crate::rendering::lanes::width::Width;
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
 use crate::scene::Scene;
 use crate::scene::triangle::Triangle;
-use crate::summary::{SurfaceSummary, Tally, table};
+use crate::summary::{Counts, SurfaceSummary, Tally, table};
 
 /// Expecting takes seconds at this many faces, and grows with their square; tracing does not.
 const MOST_FACETS_TO_EXPECT: usize = 40;
@@ -57,6 +59,10 @@ pub struct RenderArgs {
     /// The format of the list
     #[arg(long, value_enum, default_value_t = FormatName::Ply)]
     format: FormatName,
+    /// Write no list and draw no picture: only count. Memory does not grow with the number of
+    /// photons; `merge` adds up the JSON summaries of adjoining ranges
+    #[arg(long, conflicts_with_all = ["photons_from", "format", "size", "out"])]
+    count_only: bool,
     /// No progress bars
     #[arg(long, short)]
     quiet: bool,
@@ -76,24 +82,28 @@ enum FormatName {
 
 /// What a run did.
 #[derive(Debug, Serialize)]
-struct Summary {
-    seed: Option<u64>,
-    emitted: Option<u64>,
-    stored: u64,
-    sha256: Option<String>,
-    seconds: Seconds,
-    surfaces: Vec<SurfaceSummary>,
-    total: Option<SurfaceSummary>,
-    files: Vec<PathBuf>,
+pub(super) struct Summary {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) run: Option<Run>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) counts: Option<Counts>,
+    pub(super) seed: Option<u64>,
+    pub(super) emitted: Option<u64>,
+    pub(super) stored: u64,
+    pub(super) sha256: Option<String>,
+    pub(super) seconds: Seconds,
+    pub(super) surfaces: Vec<SurfaceSummary>,
+    pub(super) total: Option<SurfaceSummary>,
+    pub(super) files: Vec<PathBuf>,
 }
 
 /// How long each phase took. The list's rows are written while later photons are traced; `write`
 /// is what remains to be done after that.
 #[derive(Debug, Default, Serialize)]
-struct Seconds {
-    trace: f64,
-    picture: f64,
-    write: f64,
+pub(super) struct Seconds {
+    pub(super) trace: f64,
+    pub(super) picture: f64,
+    pub(super) write: f64,
 }
 
 /// Renders, and prints the summary.
@@ -105,17 +115,25 @@ pub fn run(arguments: &RenderArgs) -> Result<u8, CliError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| CliError::Argument(format!("--threads: {error}")))?;
     let summary = pool.install(|| render(arguments))?;
-    if arguments.json {
-        let json = serde_json::to_string(&summary).expect("a summary has only plain values");
+    print_summary(&summary, arguments.json)
+}
+
+/// Prints `summary` and gives the exit code.
+pub(super) fn print_summary(summary: &Summary, as_json: bool) -> Result<u8, CliError> {
+    if as_json {
+        let json = serde_json::to_string(summary).expect("a summary has only plain values");
         print(&(json + "\n"))?;
     } else {
-        print(&text(&summary))?;
+        print(&text(summary))?;
     }
     Ok(0)
 }
 
 fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let mut renderer = arguments.run.renderer()?;
+    if arguments.count_only {
+        return count(arguments, &renderer);
+    }
     let photons = match arguments.photons_from {
         Some(_) => 0..0,
         None => photons(arguments, &renderer)?,
@@ -134,7 +152,8 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let frame = renderer.stored_scene.frame();
     let camera = assignment8::create_camera(width, height).in_frame(frame);
     let progress = progress(arguments, "picture", u64::from(height));
-    let picture = take_picture(&renderer, &camera, width, height, || progress.inc(1));
+    let (lanes, row_done) = (Width::widest(), || progress.inc(1));
+    let picture = take_picture(&renderer, lanes, &camera, width, height, row_done);
     progress.finish_and_clear();
     summary.seconds.picture = start.elapsed().as_secs_f64();
 
@@ -168,6 +187,38 @@ fn photons(
     Ok(photons)
 }
 
+/// Traces the photons and keeps nothing but their counts.
+fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Summary, CliError> {
+    let start = Instant::now();
+    let photons = photons(arguments, renderer)?;
+    let mut hash = ListHash::default();
+    let mut tally = tally(&renderer.stored_scene);
+    let progress = progress(arguments, "photons", photons.end - photons.start);
+    trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
+        hash.update_all(records);
+        records.iter().for_each(|record| tally.add(record));
+        progress.set_position(done);
+        Ok::<(), CliError>(())
+    })?;
+    progress.finish_and_clear();
+    let emitted = photons.end - photons.start;
+    let expected = expected(arguments, renderer, &photons);
+    let max_bounces = renderer.max_photon_bounces as usize;
+    let (surfaces, total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
+    Ok(Summary {
+        counts: Some(tally.counts()),
+        run: Some(Run::new(renderer, photons)),
+        seed: Some(renderer.seed),
+        emitted: Some(emitted),
+        stored: tally.stored(),
+        sha256: Some(hash.hex()),
+        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
+        surfaces,
+        total: Some(total),
+        files: Vec::new(),
+    })
+}
+
 /// Traces the list into a file that is not yet in its place, and fills the photon map.
 fn trace(
     arguments: &RenderArgs,
@@ -190,11 +241,10 @@ fn trace(
     let mut writer =
         ListWriter::new(file.file(), format, comments(renderer, &photons)).map_err(unwritable)?;
     trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
-        for record in records {
-            hash.update(record);
-            tally.add(record);
-            positions.push(frame.to_scene(record.position.as_dvec3()));
-        }
+        hash.update_all(records);
+        records.iter().for_each(|record| tally.add(record));
+        let placed = |record: &PhotonRecord| frame.to_scene(record.position.as_dvec3());
+        positions.extend(records.iter().map(placed));
         progress.set_position(done);
         writer.write(records)
     })
@@ -207,6 +257,8 @@ fn trace(
     let max_bounces = renderer.max_photon_bounces as usize;
     let (surfaces, total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
     let summary = Summary {
+        run: None,
+        counts: None,
         seed: Some(renderer.seed),
         emitted: Some(emitted),
         stored: tally.stored(),
@@ -251,6 +303,8 @@ fn read_list(
         false => (Vec::new(), None),
     };
     Ok(Summary {
+        run: None,
+        counts: None,
         seed: None,
         emitted: None,
         stored,
@@ -299,15 +353,7 @@ fn tally(scene: &Scene) -> Tally {
 
 /// What the header of a PLY list says of the run.
 fn comments(renderer: &PhotonMappingRenderer, photons: &Range<u64>) -> Vec<String> {
-    let version = env!("CARGO_PKG_VERSION");
-    let PhotonMappingRenderer { seed, max_photon_bounces, .. } = renderer;
-    let emitted = renderer.emitted();
-    let Range { start, end } = photons;
-    let mut comments = vec![
-        format!("photon-mapping {version}"),
-        format!("seed {seed} emitted {emitted} max_bounces {max_photon_bounces}"),
-        format!("range {start}..{end}"),
-    ];
+    let mut comments = Run::new(renderer, photons.clone()).comments();
     let mesh_objects = renderer.stored_scene.mesh_objects().iter().enumerate();
     comments.extend(mesh_objects.map(|(index, mesh)| format!("surface {index} {}", mesh.name)));
     comments
@@ -342,7 +388,9 @@ fn text(summary: &Summary) -> String {
     }
     let Seconds { trace, picture, write } = summary.seconds;
     let first = if summary.seed.is_some() { "trace" } else { "read" };
-    text += &format!("seconds: {first} {trace:.2}, picture {picture:.2}, write {write:.2}\n");
+    if trace + picture + write > 0.0 {
+        text += &format!("seconds: {first} {trace:.2}, picture {picture:.2}, write {write:.2}\n");
+    }
     for file in &summary.files {
         text += &format!("written: {}\n", file.display());
     }

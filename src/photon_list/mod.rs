@@ -9,5 +9,6 @@ pub mod ply;
 pub mod provenance;
 pub mod reader;
 pub mod record;
+pub mod run;
 pub mod trace;
 pub mod writer;

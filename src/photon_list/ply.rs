@@ -1,6 +1,7 @@
 //! Lists as PLY (Greg Turk's Polygon File Format), which MeshLab, CloudCompare and Blender open.
 
-use std::io::{BufRead, Read};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::error::ListError;
@@ -86,8 +87,18 @@ impl Scalar {
 
 struct Header {
     binary: bool,
+    comments: Vec<String>,
     count: u64,
     properties: Vec<(Scalar, String)>,
+}
+
+/// The comments in the header of the list `path`.
+///
+/// # Errors
+/// When the file cannot be read or its header is not that of a list.
+pub fn comments(path: &Path) -> Result<Vec<String>, ListError> {
+    let file = File::open(path).map_err(|error| ListError::unreadable(path, error))?;
+    Ok(read_header(&mut BufReader::new(file), path)?.comments)
 }
 
 /// Reads the list in `input`, the contents of the file `path`, whose first line has been found to
@@ -150,6 +161,7 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
     let mut count = None;
     let mut in_vertex = false;
     let mut properties = Vec::new();
+    let mut comments = Vec::new();
     for number in 1..=MOST_HEADER_LINES {
         let error = |message: &str| ListError::malformed(path, format!("line {number}: {message}"));
         if read_line(input, path, &mut line)? == 0 {
@@ -157,7 +169,11 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
         }
         let words: Vec<&str> = line.split_whitespace().collect();
         match words.as_slice() {
-            ["ply"] | ["comment", ..] | ["obj_info", ..] | [] => {}
+            ["comment", ..] => {
+                let comment = line.trim_start().trim_start_matches("comment").trim();
+                comments.push(comment.to_owned());
+            }
+            ["ply"] | ["obj_info", ..] | [] => {}
             ["format", format, _] => {
                 binary = Some(match *format {
                     "binary_little_endian" => true,
@@ -187,7 +203,7 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
                         "expected 'format' and 'element vertex' before 'end_header'",
                     ));
                 };
-                return Ok(Header { binary, count, properties });
+                return Ok(Header { binary, comments, count, properties });
             }
             _ => return Err(error("expected a line of a PLY header of plain properties")),
         }

@@ -5,13 +5,15 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::record::PhotonRecord;
+use crate::rendering::lanes::LaneTracer;
+use crate::rendering::lanes::width::Width;
 use crate::rendering::photon::Photon;
 use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 
 /// How many photons a thread traces before it takes the next piece.
 const PIECE: u64 = 8192;
 /// How many pieces are in memory at once while the pieces before them are consumed.
-const PIECES_IN_WAVE: u64 = 32;
+const PIECES_IN_WAVE: u64 = 64;
 
 /// Traces the photons numbered `photons` on all threads of the current rayon pool and hands their
 /// records to `consume` in order, with the number of photons done so far. Memory does not grow with
@@ -24,6 +26,11 @@ pub fn trace_list<E: Send>(
     photons: Range<u64>,
     mut consume: impl FnMut(&[PhotonRecord], u64) -> Result<(), E> + Send,
 ) -> Result<(), E> {
+    let lanes = LaneTracer::new(renderer, Width::widest());
+    let trace = |piece: Range<u64>| match &lanes {
+        Some(lanes) => lanes.trace_piece(piece),
+        None => trace_piece(renderer, piece),
+    };
     let mut traced: Vec<(Range<u64>, Vec<PhotonRecord>)> = Vec::new();
     let mut next = photons.start;
     loop {
@@ -40,12 +47,7 @@ pub fn trace_list<E: Send>(
                     .iter()
                     .try_for_each(|(piece, records)| consume(records, piece.end - photons.start))
             },
-            || {
-                pieces
-                    .into_par_iter()
-                    .map(|piece| (piece.clone(), trace_piece(renderer, piece)))
-                    .collect()
-            },
+            || pieces.into_par_iter().map(|piece| (piece.clone(), trace(piece))).collect(),
         );
         consumed?;
         if is_last {

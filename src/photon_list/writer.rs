@@ -4,8 +4,11 @@ use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 
 use sha2::{Digest, Sha256};
 
-use super::record::PhotonRecord;
+use super::record::{PhotonRecord, ROW_BYTES};
 use super::{csv, ply};
+
+/// How many rows are put together before they are hashed or written.
+const ROWS_AT_ONCE: usize = 256;
 
 /// The format of a list that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +27,16 @@ impl ListHash {
     /// Adds a row.
     pub fn update(&mut self, record: &PhotonRecord) {
         self.0.update(record.to_row());
+    }
+
+    /// Adds the rows of `records`.
+    pub fn update_all(&mut self, records: &[PhotonRecord]) {
+        // Many rows at a time: the hash starts slowly for each call.
+        for records in records.chunks(ROWS_AT_ONCE) {
+            let mut rows = [[0; ROW_BYTES]; ROWS_AT_ONCE];
+            rows.iter_mut().zip(records).for_each(|(row, record)| *row = record.to_row());
+            self.0.update(rows[..records.len()].as_flattened());
+        }
     }
 
     /// The hash so far, as 64 hexadecimal digits.
@@ -63,9 +76,11 @@ impl<W: Write + Seek> ListWriter<W> {
     pub fn write(&mut self, records: &[PhotonRecord]) -> io::Result<()> {
         self.count += records.len() as u64;
         match self.format {
-            Format::Ply => {
-                records.iter().try_for_each(|record| self.output.write_all(&record.to_row()))
-            }
+            Format::Ply => records.chunks(ROWS_AT_ONCE).try_for_each(|records| {
+                let mut rows = [[0; ROW_BYTES]; ROWS_AT_ONCE];
+                rows.iter_mut().zip(records).for_each(|(row, record)| *row = record.to_row());
+                self.output.write_all(rows[..records.len()].as_flattened())
+            }),
             Format::Csv => {
                 self.text.clear();
                 records.iter().for_each(|record| csv::push_line(&mut self.text, record));

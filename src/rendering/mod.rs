@@ -2,6 +2,7 @@
 
 pub mod backward_renderer;
 pub mod image_writer;
+pub mod lanes;
 pub mod photon;
 pub mod photon_map;
 pub mod photon_mapping_renderer;

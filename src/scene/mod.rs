@@ -8,6 +8,7 @@ pub mod material;
 pub mod mesh_object;
 pub mod obj;
 pub mod ray;
+pub mod tree;
 pub mod triangle;
 
 use frame::Frame;
@@ -16,6 +17,7 @@ use intersection_state::IntersectionState;
 use lights::point_light::PointLight;
 use mesh_object::MeshObject;
 use ray::Ray;
+use tree::Tree;
 use triangle::{ShearedRay, Triangle};
 
 /// The offset of a ray that leaves a surface, along the surface's normal, in scene space. Without
@@ -30,6 +32,8 @@ pub struct Scene {
     triangles: Vec<Triangle>,
     lights: Vec<PointLight>,
     frame: Frame,
+    /// Only for scenes of many triangles.
+    tree: Option<Tree>,
 }
 
 impl Scene {
@@ -47,12 +51,8 @@ impl Scene {
         let lights = lights
             .iter()
             .map(|light| PointLight { position: place(light.position), color: light.color });
-        Self {
-            triangles: triangles.collect(),
-            lights: lights.collect(),
-            mesh_objects: model.mesh_objects,
-            frame,
-        }
+        let placed = Self::new(model.mesh_objects, triangles.collect(), lights.collect());
+        Self { frame, ..placed }
     }
 
     /// A scene of `triangles`, each of which names its mesh object by index.
@@ -61,7 +61,8 @@ impl Scene {
         triangles: Vec<Triangle>,
         lights: Vec<PointLight>,
     ) -> Self {
-        Self { mesh_objects, triangles, lights, frame: Frame::WORLD }
+        let tree = (triangles.len() > tree::FEW).then(|| Tree::new(&triangles));
+        Self { mesh_objects, triangles, lights, frame: Frame::WORLD, tree }
     }
 
     /// The mesh objects, in the model file's order.
@@ -89,14 +90,16 @@ impl Scene {
     /// With a `state`, it is filled with the closest hit; of two at the same distance, the one of
     /// the triangle that comes first. Without one, any hit will do.
     pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
-        let sheared_ray = ShearedRay::new(ray);
-        let mut hits = self.triangles.iter().enumerate().filter_map(|(index, triangle)| {
-            triangle.intersect(&sheared_ray).filter(|t| *t < ray.max_t).map(|t| (index, t))
-        });
         let Some(state) = state else {
-            return hits.next().is_some();
+            return match &self.tree {
+                Some(tree) => tree.any(ray),
+                None => self.hits(ray).next().is_some(),
+            };
         };
-        let closest = hits.reduce(|best, hit| if hit.1 < best.1 { hit } else { best });
+        let closest = match &self.tree {
+            Some(tree) => tree.closest(ray),
+            None => self.hits(ray).reduce(|best, hit| if hit.1 < best.1 { hit } else { best }),
+        };
         if let Some((index, t)) = closest {
             *state = IntersectionState {
                 intersection_ray: *ray,
@@ -105,5 +108,14 @@ impl Scene {
             };
         }
         closest.is_some()
+    }
+
+    /// Every triangle that `ray` meets before its `max_t`, with its distance.
+    fn hits(&self, ray: &Ray) -> impl Iterator<Item = (usize, f32)> {
+        let sheared_ray = ShearedRay::new(ray);
+        let max_t = ray.max_t;
+        self.triangles.iter().enumerate().filter_map(move |(index, triangle)| {
+            triangle.intersect(&sheared_ray).filter(|t| *t < max_t).map(|t| (index, t))
+        })
     }
 }

@@ -31,15 +31,7 @@ impl ShearedRay {
     /// Prepares `ray`, whose direction must not be zero.
     pub fn new(ray: &Ray) -> Self {
         let direction = ray.ray_direction();
-        let size = direction.abs();
-        let z = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let [x, y, z] = Self::axes(direction);
         Self {
             origin: ray.position(),
             axes: [x, y, z],
@@ -48,6 +40,31 @@ impl ShearedRay {
                 direction[y] / direction[z],
                 1.0 / direction[z],
             ),
+        }
+    }
+
+    /// The axes of the scene that are x, y and z for this ray.
+    #[inline(always)]
+    pub(crate) fn order(&self) -> [usize; 3] {
+        self.axes
+    }
+
+    /// The shears along x and y, and the reciprocal of the direction along z.
+    #[inline(always)]
+    pub(crate) fn shear(&self) -> Vec3 {
+        self.shear
+    }
+
+    /// The axes of the scene that become x, y and z for a ray in `direction`.
+    #[inline(always)]
+    pub(crate) fn axes(direction: Vec3) -> [usize; 3] {
+        let size = direction.abs();
+        if size.x >= size.y && size.x >= size.z {
+            [1, 2, 0]
+        } else if size.y >= size.z {
+            [2, 0, 1]
+        } else {
+            [0, 1, 2]
         }
     }
 
@@ -73,27 +90,32 @@ impl Triangle {
     /// (*Watertight Ray/Triangle Intersection*, JCGT 2013): seen along the ray, the sign of each
     /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
     pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
-        let [a, b, c] = self.vertices.map(|vertex| ray.see(vertex));
-        let mut u = c.x * b.y - c.y * b.x;
-        let mut v = a.x * c.y - a.y * c.x;
-        let mut w = b.x * a.y - b.y * a.x;
-        if u == 0.0 || v == 0.0 || w == 0.0 {
-            // Rounding is monotonic: a difference of two rounded products has the right sign or is
-            // zero. In f64 the products are exact, so there even the zeros are true.
-            u = exact_edge(c, b);
-            v = exact_edge(a, c);
-            w = exact_edge(b, a);
-        }
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-            return None;
-        }
-        let determinant = u + v + w;
-        if determinant == 0.0 {
-            return None;
-        }
-        let t = (u * a.z + v * b.z + w * c.z) / determinant;
-        (t > 0.0).then_some(t)
+        meet(self.vertices.map(|vertex| ray.see(vertex)))
     }
+}
+
+/// The test of [`Triangle::intersect`] for the corners `a`, `b` and `c` as the ray sees them.
+#[inline(always)]
+pub(crate) fn meet([a, b, c]: [Vec3; 3]) -> Option<f32> {
+    let mut u = c.x * b.y - c.y * b.x;
+    let mut v = a.x * c.y - a.y * c.x;
+    let mut w = b.x * a.y - b.y * a.x;
+    if u == 0.0 || v == 0.0 || w == 0.0 {
+        // Rounding is monotonic: a difference of two rounded products has the right sign or is
+        // zero. In f64 the products are exact, so there even the zeros are true.
+        u = exact_edge(c, b);
+        v = exact_edge(a, c);
+        w = exact_edge(b, a);
+    }
+    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+        return None;
+    }
+    let determinant = u + v + w;
+    if determinant == 0.0 {
+        return None;
+    }
+    let t = (u * a.z + v * b.z + w * c.z) / determinant;
+    (t > 0.0).then_some(t)
 }
 
 fn exact_edge(p: Vec3, q: Vec3) -> f32 {

@@ -1,0 +1,112 @@
+//! The fast path: many photons side by side, to the bits of
+//! [`PhotonMappingRenderer::trace_photon`]. Nobody needs to read this to understand photon mapping.
+//!
+//! A wave of photons takes each step together: [`emission`] draws their directions in the lanes of
+//! the processor's vectors, [`outlook`] tells what a photon from a light meets, [`closest_hit`] what
+//! a scattered one meets, [`scattering`] sends those that survive the roulette on, and [`wave`] is
+//! the loop around them. [`picture`] sends camera and shadow rays the same way. [`width`] chooses the vector instructions when the program runs.
+//!
+//! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and this
+//! module may only be another order of the same roundings. What can be shared is called, not copied:
+//! the edge functions, the frame of a surface, the offset of a ray, the shares of the lights, and
+//! scalar tracing wherever a lane is in doubt. What must be written again is small, one formula a
+//! file, and each has a test that holds it to the scalar code by bits, exhaustively where there are
+//! few enough inputs. Over all of it, `tests/lanes.rs` traces random scenes, lights, seeds, ranges
+//! and bounces through both paths and every width, and compares records by bits; and the goldens of
+//! the default run pass through both. Who changes `trace_photon` sees these tests fail until the
+//! same change is made here; a reading or scene that the lanes do not know goes to `trace_photon`,
+//! which [`LaneTracer::new`] alone decides.
+
+pub mod chacha;
+pub mod closest_hit;
+pub mod draws;
+pub mod emission;
+pub mod outlook;
+pub mod picture;
+pub mod scattering;
+pub mod trigonometry;
+pub mod wave;
+pub mod width;
+
+use std::ops::Range;
+
+use super::photon_mapping_renderer::PhotonMappingRenderer;
+use super::sampling::tangent_frame;
+use crate::photon_list::record::PhotonRecord;
+use crate::scene::triangle::Triangle;
+use closest_hit::SharedCorners;
+use outlook::Outlook;
+use width::Width;
+
+/// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
+pub const MOST_TRIANGLES: usize = 64;
+
+/// Traces the photons of one renderer in lanes.
+#[derive(Clone, Debug)]
+pub struct LaneTracer<'renderer> {
+    renderer: &'renderer PhotonMappingRenderer,
+    width: Width,
+    corners: SharedCorners,
+    surfaces: Vec<Surface>,
+    /// What each light sees.
+    outlooks: Vec<Outlook>,
+}
+
+/// What a photon needs to know of a triangle that it hits.
+#[derive(Clone, Copy, Debug)]
+struct Surface {
+    mesh_object: u16,
+    probability_of_reflection: f32,
+    /// The columns of [`tangent_frame`], one after another.
+    frame: [f32; 9],
+}
+
+impl Surface {
+    fn new(renderer: &PhotonMappingRenderer, triangle: &Triangle) -> Option<Self> {
+        let mesh_object = &renderer.stored_scene.mesh_objects()[triangle.parent_mesh_object];
+        Some(Self {
+            mesh_object: u16::try_from(triangle.parent_mesh_object).ok()?,
+            probability_of_reflection: mesh_object.material.base_diffuse_reflection().max_element(),
+            frame: tangent_frame(triangle.normal, &renderer.reading).to_cols_array(),
+        })
+    }
+}
+
+impl<'renderer> LaneTracer<'renderer> {
+    /// Prepares `renderer`'s scene for vectors of `width`; `None` when the scene or the run is too
+    /// large for lanes.
+    pub fn new(renderer: &'renderer PhotonMappingRenderer, width: Width) -> Option<Self> {
+        let scene = &renderer.stored_scene;
+        if scene.triangles().len() > MOST_TRIANGLES || renderer.emitted() > 1 << 32 {
+            return None;
+        }
+        let surfaces = scene.triangles().iter().map(|triangle| Surface::new(renderer, triangle));
+        Some(Self {
+            renderer,
+            width,
+            corners: SharedCorners::new(scene),
+            surfaces: surfaces.collect::<Option<_>>()?,
+            outlooks: scene.lights().iter().map(|l| Outlook::new(scene, l.position)).collect(),
+        })
+    }
+
+    /// Traces the photons numbered `photons` on this thread: the records of
+    /// [`crate::photon_list::trace::trace_piece`], bit for bit.
+    pub fn trace_piece(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        let mut records = Vec::new();
+        let mut first_of_light = 0;
+        let lights = self.renderer.stored_scene.lights();
+        for ((light, outlook), light_photons) in
+            lights.iter().zip(&self.outlooks).zip(self.renderer.photons_per_light())
+        {
+            let of_light = first_of_light..first_of_light + light_photons;
+            let wave = of_light.start.max(photons.start)..of_light.end.min(photons.end);
+            if !wave.is_empty() {
+                let light_intensity = light.color / light_photons as f32;
+                self.trace_wave(light, outlook, light_intensity, wave, &mut records);
+            }
+            first_of_light = of_light.end;
+        }
+        records
+    }
+}

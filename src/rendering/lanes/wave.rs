@@ -1,0 +1,246 @@
+//! The loop of `trace_photon` turned inside out: not one photon through all of its bounces, but one
+//! bounce for all photons of a wave.
+
+use std::ops::Range;
+
+use glam::Vec3;
+
+use super::chacha::{self, number};
+use super::closest_hit::{self, Closest, Hits, NONE, Rays};
+use super::draws::{self, Draws};
+use super::emission::{self, Aim, Aims, Emission, Emit, is_in_sphere};
+use super::outlook::{Outlook, ShearedDirection};
+use super::scattering::Scatter;
+use super::{LaneTracer, Surface};
+use crate::photon_list::record::PhotonRecord;
+use crate::scene::lights::point_light::PointLight;
+use crate::scene::ray::Ray;
+
+/// How many groups of photons leave the light before those that need a second block get one
+/// together.
+const GROUPS: usize = 16;
+
+/// A photon on a surface.
+#[derive(Clone, Copy, Debug)]
+struct Arrival {
+    point: Vec3,
+    /// Where it came from: the unit vector along which it flew.
+    direction: Vec3,
+    triangle: u32,
+}
+
+/// The photons that are on a surface after the same number of bounces, in order.
+#[derive(Clone, Debug, Default)]
+struct Arrivals {
+    places: Vec<Arrival>,
+    /// The numbers with which each goes on.
+    draws: Vec<Draws>,
+}
+
+impl LaneTracer<'_> {
+    /// Traces the photons `photons` of `light` and adds what they store to `records`.
+    pub(super) fn trace_wave(
+        &self,
+        light: &PointLight,
+        outlook: &Outlook,
+        light_intensity: Vec3,
+        photons: Range<u64>,
+        records: &mut Vec<PhotonRecord>,
+    ) {
+        if self.renderer.max_photon_bounces < 0 {
+            return;
+        }
+        let mut arrivals = self.emit(light, outlook, photons);
+        let frame = self.renderer.stored_scene.frame();
+        let mut by_bounce: Vec<Vec<PhotonRecord>> = Vec::new();
+        for bounce in 1..=self.renderer.max_photon_bounces {
+            arrivals = self.scatter(&arrivals);
+            if arrivals.places.is_empty() {
+                break;
+            }
+            let bounce = u16::try_from(bounce).expect("a photon bounces at most 1000 times");
+            let stored =
+                arrivals.places.iter().zip(&arrivals.draws).map(|(arrival, draws)| PhotonRecord {
+                    position: frame.to_world(arrival.point),
+                    intensity: light_intensity,
+                    to_light: -arrival.direction,
+                    photon: draws.photon,
+                    bounce,
+                    surface: self.surface(arrival).mesh_object,
+                });
+            by_bounce.push(stored.collect());
+        }
+        join(&by_bounce, records);
+    }
+
+    fn surface(&self, arrival: &Arrival) -> &Surface {
+        &self.surfaces[arrival.triangle as usize]
+    }
+
+    /// Where the photons `photons` of `light` hit first, in order.
+    fn emit(&self, light: &PointLight, outlook: &Outlook, photons: Range<u64>) -> Arrivals {
+        let seed = self.renderer.seed;
+        let mut emissions = vec![Emission::default(); GROUPS];
+        let mut words = [[0; emission::GROUP]; chacha::WORDS];
+        let mut aims = Aims::default();
+        // Of the handout's photons, one in four arrives.
+        let expected = (photons.end - photons.start) as usize / 4;
+        let mut arrivals =
+            Arrivals { places: Vec::with_capacity(expected), draws: Vec::with_capacity(expected) };
+        for first in photons.clone().step_by(GROUPS * emission::GROUP) {
+            let count = (photons.end - first).min((GROUPS * emission::GROUP) as u64) as usize;
+            let first = first as u32;
+            let emissions = &mut emissions[..count.div_ceil(emission::GROUP)];
+            for (group, emission) in emissions.iter_mut().enumerate() {
+                let first = first.wrapping_add((group * emission::GROUP) as u32);
+                self.width.run(Emit { seed, first, words: &mut words, emission });
+            }
+            self.try_again(first, count, emissions);
+            for (group, emission) in emissions.iter().enumerate() {
+                self.width.run(Aim { point: &emission.point, aims: &mut aims });
+                let start = group * emission::GROUP;
+                // Without a branch, since which cells are empty cannot be predicted.
+                let mut lanes = [0; emission::GROUP];
+                let mut candidates = 0;
+                for lane in 0..emission::GROUP.min(count - start) {
+                    lanes[candidates] = lane;
+                    candidates += usize::from(outlook.occupied(aims.cell[lane]));
+                }
+                for &lane in &lanes[..candidates] {
+                    let of_lane = |columns: &[[f32; emission::GROUP]; 3]| {
+                        Vec3::from_array([0, 1, 2].map(|c| columns[c][lane]))
+                    };
+                    let sheared =
+                        ShearedDirection { cell: aims.cell[lane], shear: of_lane(&aims.shear) };
+                    let Some((triangle, t)) = outlook.closest(sheared) else {
+                        continue;
+                    };
+                    let direction = of_lane(&aims.direction);
+                    let point = Ray::new(light.position, direction).ray_position(t);
+                    arrivals.places.push(Arrival { point, direction, triangle });
+                    arrivals.draws.push(Draws {
+                        photon: first + (start + lane) as u32,
+                        drawn: emission.drawn[lane],
+                        words: [0, 1, 2].map(|n| emission.next[n][lane]),
+                    });
+                }
+            }
+        }
+        self.complete(&mut arrivals.draws);
+        arrivals
+    }
+
+    /// Draws again what the first block was not long enough for.
+    fn complete(&self, draws: &mut [Draws]) {
+        let is_lacking = |draws: &Draws| draws.drawn + 3 > chacha::WORDS as u32;
+        let lacking: Vec<usize> = (0..draws.len()).filter(|at| is_lacking(&draws[*at])).collect();
+        let mut completed: Vec<Draws> = lacking.iter().map(|at| draws[*at]).collect();
+        draws::fill(self.width, self.renderer.seed, &mut completed);
+        for (at, completed) in lacking.into_iter().zip(completed) {
+            draws[at] = completed;
+        }
+    }
+
+    /// Goes on with the rejection loops for which the first block was not long enough.
+    fn try_again(&self, first: u32, count: usize, emissions: &mut [Emission]) {
+        let mut tries = Vec::new();
+        for (group, emission) in emissions.iter().enumerate() {
+            for (lane, drawn) in emission.drawn.iter().enumerate() {
+                let place = group * emission::GROUP + lane;
+                if *drawn == 0 && place < count {
+                    let photon = first + place as u32;
+                    tries.push(Draws { photon, drawn: emission::DRAWN_IN_VAIN, words: [0; 3] });
+                }
+            }
+        }
+        while !tries.is_empty() {
+            draws::fill(self.width, self.renderer.seed, &mut tries);
+            tries.retain_mut(|draws| {
+                draws.drawn += 3;
+                let point = draws.words.map(|word| 2.0 * number(word) - 1.0);
+                let is_accepted = is_in_sphere(Vec3::from_array(point));
+                if is_accepted {
+                    let place = (draws.photon - first) as usize;
+                    let emission = &mut emissions[place / emission::GROUP];
+                    let lane = place % emission::GROUP;
+                    emission.drawn[lane] = draws.drawn;
+                    for (column, coordinate) in emission.point.iter_mut().zip(point) {
+                        column[lane] = coordinate;
+                    }
+                }
+                !is_accepted
+            });
+        }
+    }
+
+    /// Plays the roulette for all of `arrivals`, scatters those that survive, and gives what these
+    /// hit next.
+    fn scatter(&self, arrivals: &Arrivals) -> Arrivals {
+        let mut survivors = Vec::with_capacity(arrivals.places.len());
+        for (place, (arrival, draws)) in arrivals.places.iter().zip(&arrivals.draws).enumerate() {
+            if number(draws.words[0]) < self.surface(arrival).probability_of_reflection {
+                survivors.push(place);
+            }
+        }
+        let mut words = [[0; closest_hit::GROUP]; 2];
+        let mut point = [[0.0; closest_hit::GROUP]; 3];
+        let mut frame = [[0.0; closest_hit::GROUP]; 9];
+        let mut rays = Rays::default();
+        let mut hits = Hits::default();
+        let mut next = Arrivals::default();
+        for group in survivors.chunks(closest_hit::GROUP) {
+            for (lane, place) in group.iter().enumerate() {
+                let (arrival, draws) = (&arrivals.places[*place], &arrivals.draws[*place]);
+                [words[0][lane], words[1][lane]] = [draws.words[1], draws.words[2]];
+                for (column, coordinate) in point.iter_mut().zip(arrival.point.to_array()) {
+                    column[lane] = coordinate;
+                }
+                for (column, coordinate) in frame.iter_mut().zip(self.surface(arrival).frame) {
+                    column[lane] = coordinate;
+                }
+            }
+            let offset = self.renderer.reading.offset;
+            self.width.run(Scatter {
+                words: &words,
+                point: &point,
+                frame: &frame,
+                offset,
+                rays: &mut rays,
+            });
+            self.width.run(Closest { scene: &self.corners, rays: &rays, hits: &mut hits });
+            hits.settle(&self.renderer.stored_scene, &rays, group.len());
+            for (lane, place) in group.iter().enumerate() {
+                if hits.triangle[lane] != NONE {
+                    let ray = rays.ray(lane);
+                    next.places.push(Arrival {
+                        point: ray.ray_position(hits.t[lane]),
+                        direction: ray.ray_direction(),
+                        triangle: hits.triangle[lane],
+                    });
+                    let Draws { photon, drawn, .. } = arrivals.draws[*place];
+                    next.draws.push(Draws { photon, drawn: drawn + 3, words: [0; 3] });
+                }
+            }
+        }
+        draws::fill(self.width, self.renderer.seed, &mut next.draws);
+        next
+    }
+}
+
+/// The records of all bounces in order of photon, then bounce. A photon stored at its k-th bounce
+/// was stored at every one before, so those of one photon are the heads of the first few lists.
+fn join(by_bounce: &[Vec<PhotonRecord>], records: &mut Vec<PhotonRecord>) {
+    let Some((first, later)) = by_bounce.split_first() else {
+        return;
+    };
+    let mut later: Vec<_> = later.iter().map(|records| records.iter().peekable()).collect();
+    for record in first {
+        records.push(*record);
+        for bounce in &mut later {
+            let Some(next) = bounce.next_if(|next| next.photon == record.photon) else {
+                break;
+            };
+            records.push(*next);
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! A tree of boxes for scenes of many triangles. The handout's scene never meets it.
+//!
+//! **Hits do not depend on the tree.** It only leaves out triangles; each that remains is tested by
+//! [`super::triangle`], and of hits at the same distance the lowest index counts, as without a tree.
+//! So it must never leave out a triangle that the test would accept. The test sees each corner where
+//! it is up to a few roundings: one of `corner - origin`, three of the shear, each at most 2^-24 of
+//! the largest coordinate M of `corner - origin`. A ray that it accepts therefore passes the exact
+//! triangle within 6 * 2^-24 M, and its rounded t lies within 12 * 2^-24 M of the exact distance.
+//! Every box is taken larger by 2^-19 M on each side (M over the whole scene, found once for a ray),
+//! and a box is passed over for being too far only beyond twice that. That is 32 of these roundings,
+//! and covers those of the box test itself (Ize, *Robust BVH Ray Traversal*, JCGT 2013).
+//!
+//! Eight boxes a node, so that few nodes are waited for one after another, and four triangles a
+//! leaf, because every processor of the common targets has vectors of four; built from the top by the surface area heuristic with bins (Wald, *On fast
+//! Construction of SAH-based Bounding Volume Hierarchies*, 2007). Our own, because the crates for
+//! such trees bring their own triangle tests or boxes that are not conservative.
+
+use glam::Vec3;
+
+use super::ray::Ray;
+use super::triangle::{ShearedRay, Triangle, meet};
+
+/// Scenes with at most this many triangles need no tree: testing all is as fast.
+pub const FEW: usize = 64;
+
+const WIDTH: usize = 8;
+const IN_LEAF: usize = 4;
+const BINS: usize = 16;
+/// The slack of a box in units of the largest coordinate, 2^-19.
+const SLACK: f32 = 1.0 / 524_288.0;
+/// Marks a child that is a leaf.
+const LEAF: u32 = 1 << 31;
+const NO_CHILD: u32 = u32::MAX;
+
+type Boxes = [f32; WIDTH];
+type Four = [f32; IN_LEAF];
+
+/// Boxes around boxes around triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    nodes: Vec<Node>,
+    leaves: Vec<Leaf>,
+    bounds: Bounds,
+}
+
+/// On the border of a cache line: in a large mesh most of the time is spent waiting for nodes.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(align(64))]
+struct Node {
+    /// The least and the greatest corners of the boxes, by axis.
+    ends: [[Boxes; 3]; 2],
+    children: [u32; WIDTH],
+}
+
+/// Four triangles; one that is missing is the first once more.
+#[derive(Clone, Debug, PartialEq)]
+struct Leaf {
+    /// By corner, then axis.
+    corners: [[Four; 3]; 3],
+    indices: [u32; IN_LEAF],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Bounds {
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+
+    fn of(triangle: &Triangle) -> Self {
+        let [a, b, c] = triangle.vertices;
+        Self { low: a.min(b).min(c), high: a.max(b).max(c) }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    fn half_area(self) -> f32 {
+        let d = (self.high - self.low).max(Vec3::ZERO);
+        d.x * d.y + d.y * d.z + d.z * d.x
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Item {
+    bounds: Bounds,
+    center: Vec3,
+    index: u32,
+}
+
+/// A ray on its way through the tree.
+struct Search {
+    origin: Vec3,
+    sheared: ShearedRay,
+    reciprocal: Vec3,
+    /// For each axis, which of a node's ends comes first.
+    first: [usize; 3],
+    slack: f32,
+    closest: f32,
+    index: u32,
+}
+
+impl Tree {
+    /// A tree of `triangles`, of which there must be one at least.
+    pub fn new(triangles: &[Triangle]) -> Self {
+        let mut items: Vec<Item> = (0..)
+            .zip(triangles)
+            .map(|(index, triangle)| {
+                let bounds = Bounds::of(triangle);
+                Item { bounds, center: 0.5 * bounds.low + 0.5 * bounds.high, index }
+            })
+            .collect();
+        let bounds = items.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds));
+        let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), bounds };
+        tree.add_node(triangles, &mut items);
+        tree
+    }
+
+    /// Adds a node for `items` and all below it, and gives its place.
+    fn add_node(&mut self, triangles: &[Triangle], items: &mut [Item]) -> u32 {
+        let place = self.nodes.len();
+        let empty = [[f32::INFINITY; WIDTH]; 3];
+        self.nodes.push(Node {
+            ends: [empty, empty.map(|axis| axis.map(|low| -low))],
+            children: [NO_CHILD; WIDTH],
+        });
+        let mut parts = vec![items];
+        while parts.len() < WIDTH {
+            parts = parts.into_iter().flat_map(|part| <[_; 2]>::from(split(part))).collect();
+        }
+        let parts = parts.into_iter().filter(|part| !part.is_empty());
+        for (slot, part) in parts.enumerate() {
+            let bounds = part.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds));
+            let child = if part.len() <= IN_LEAF {
+                self.leaves.push(Leaf::new(triangles, part));
+                (self.leaves.len() - 1) as u32 | LEAF
+            } else {
+                self.add_node(triangles, part)
+            };
+            let node = &mut self.nodes[place];
+            node.children[slot] = child;
+            for axis in 0..3 {
+                node.ends[0][axis][slot] = bounds.low[axis];
+                node.ends[1][axis][slot] = bounds.high[axis];
+            }
+        }
+        place as u32
+    }
+
+    /// The closest triangle that `ray` meets before its end, and its distance; of two at the same
+    /// distance, the one of the lower index.
+    pub fn closest(&self, ray: &Ray) -> Option<(usize, f32)> {
+        self.search(ray, false)
+    }
+
+    /// Whether `ray` meets anything before its end.
+    pub fn any(&self, ray: &Ray) -> bool {
+        self.search(ray, true).is_some()
+    }
+
+    fn search(&self, ray: &Ray, any_will_do: bool) -> Option<(usize, f32)> {
+        let (origin, direction) = (ray.position(), ray.ray_direction());
+        let reach = (self.bounds.low - origin).abs().max((self.bounds.high - origin).abs());
+        let mut search = Search {
+            origin,
+            sheared: ShearedRay::new(ray),
+            reciprocal: direction.recip(),
+            first: direction.to_array().map(|d| usize::from(d.is_sign_negative())),
+            slack: SLACK * reach.max_element(),
+            closest: ray.max_t,
+            index: NO_CHILD,
+        };
+        let mut stack = Vec::with_capacity(64);
+        let mut next = Some((0, 0.0));
+        while let Some((place, distance)) = next {
+            if distance <= search.closest + 2.0 * search.slack {
+                if place & LEAF == 0 {
+                    let node = &self.nodes[place as usize];
+                    let distances = search.enter(node);
+                    let start = stack.len();
+                    for (child, distance) in node.children.into_iter().zip(distances) {
+                        if distance < f32::INFINITY {
+                            // The farthest below, so that the nearest is visited first.
+                            let at = stack[start..].iter().position(|(_, d)| *d < distance);
+                            stack
+                                .insert(at.map_or(stack.len(), |at| start + at), (child, distance));
+                        }
+                    }
+                } else {
+                    search.test(&self.leaves[(place & !LEAF) as usize]);
+                    if any_will_do && search.index != NO_CHILD {
+                        break;
+                    }
+                }
+            }
+            next = stack.pop();
+        }
+        (search.index != NO_CHILD).then_some((search.index as usize, search.closest))
+    }
+}
+
+impl Search {
+    /// How far away the boxes of `node` begin; infinite when the ray misses one.
+    #[inline(always)]
+    fn enter(&self, node: &Node) -> Boxes {
+        let mut near = [0.0; WIDTH];
+        let mut far = [f32::INFINITY; WIDTH];
+        for axis in 0..3 {
+            let first = self.first[axis];
+            let (starts, ends) = (&node.ends[first][axis], &node.ends[1 - first][axis]);
+            let slack = if first == 0 { self.slack } else { -self.slack };
+            let (before, behind) = (self.origin[axis] + slack, self.origin[axis] - slack);
+            for lane in 0..WIDTH {
+                // Not a number when the ray runs along the box's side: then this axis does not
+                // count, since the comparisons are false.
+                let start = (starts[lane] - before) * self.reciprocal[axis];
+                let end = (ends[lane] - behind) * self.reciprocal[axis];
+                near[lane] = if start > near[lane] { start } else { near[lane] };
+                far[lane] = if end < far[lane] { end } else { far[lane] };
+            }
+        }
+        let mut distances = [0.0; WIDTH];
+        for lane in 0..WIDTH {
+            let is_entered = (near[lane] <= far[lane] * (1.0 + 4.0 * f32::EPSILON))
+                & (near[lane] <= self.closest + 2.0 * self.slack);
+            distances[lane] = if is_entered { near[lane] } else { f32::INFINITY };
+        }
+        distances
+    }
+
+    /// Tests the triangles of `leaf`.
+    #[inline(always)]
+    fn test(&mut self, leaf: &Leaf) {
+        let mut seen = [[[0.0; IN_LEAF]; 3]; 3];
+        let [x, y, z] = self.sheared.order();
+        let shear = self.sheared.shear();
+        for (seen, corner) in seen.iter_mut().zip(&leaf.corners) {
+            for lane in 0..IN_LEAF {
+                let depth = corner[z][lane] - self.origin[z];
+                seen[0][lane] = corner[x][lane] - self.origin[x] - shear.x * depth;
+                seen[1][lane] = corner[y][lane] - self.origin[y] - shear.y * depth;
+                seen[2][lane] = shear.z * depth;
+            }
+        }
+        let [a, b, c] = &seen;
+        let mut may_be_met = [false; IN_LEAF];
+        for lane in 0..IN_LEAF {
+            let u = c[0][lane] * b[1][lane] - c[1][lane] * b[0][lane];
+            let v = a[0][lane] * c[1][lane] - a[1][lane] * c[0][lane];
+            let w = b[0][lane] * a[1][lane] - b[1][lane] * a[0][lane];
+            let is_refused = ((u < 0.0) | (v < 0.0) | (w < 0.0))
+                & ((u > 0.0) | (v > 0.0) | (w > 0.0))
+                & (u != 0.0)
+                & (v != 0.0)
+                & (w != 0.0);
+            may_be_met[lane] = !is_refused;
+        }
+        for lane in (0..IN_LEAF).filter(|lane| may_be_met[*lane]) {
+            let of_lane = |corner: &[Four; 3]| Vec3::from_array(corner.map(|axis| axis[lane]));
+            let Some(t) = meet([of_lane(a), of_lane(b), of_lane(c)]) else {
+                continue;
+            };
+            let index = leaf.indices[lane];
+            let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
+            if t < self.closest || is_tie {
+                (self.closest, self.index) = (t, index);
+            }
+        }
+    }
+}
+
+impl Leaf {
+    fn new(triangles: &[Triangle], items: &[Item]) -> Self {
+        let mut leaf = Self { corners: [[[0.0; IN_LEAF]; 3]; 3], indices: [0; IN_LEAF] };
+        for lane in 0..IN_LEAF {
+            let index = items.get(lane).unwrap_or(&items[0]).index;
+            leaf.indices[lane] = index;
+            for (corner, vertex) in leaf.corners.iter_mut().zip(triangles[index as usize].vertices)
+            {
+                for (axis, coordinate) in corner.iter_mut().zip(vertex.to_array()) {
+                    axis[lane] = coordinate;
+                }
+            }
+        }
+        leaf
+    }
+}
+
+/// Divides `items` where the surface area heuristic finds it cheapest; what fits a leaf stays whole.
+fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
+    if items.len() <= IN_LEAF {
+        return items.split_at_mut(items.len());
+    }
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for item in &*items {
+        (low, high) = (low.min(item.center), high.max(item.center));
+    }
+    let extent = high - low;
+    let scale = BINS as f32 * (1.0 - 1e-6) / extent;
+    let bin = |item: &Item, axis: usize| {
+        (((item.center[axis] - low[axis]) * scale[axis]) as usize).min(BINS - 1)
+    };
+    let mut bins = [[(0_usize, Bounds::EMPTY); BINS]; 3];
+    for item in &*items {
+        for (axis, bins) in bins.iter_mut().enumerate() {
+            let (count, bounds) = &mut bins[bin(item, axis)];
+            (*count, *bounds) = (*count + 1, bounds.and(item.bounds));
+        }
+    }
+    let mut best = (f32::INFINITY, 0, 0);
+    for axis in (0..3).filter(|axis| extent[*axis] > 0.0) {
+        let mut right_cost = [0.0; BINS];
+        let mut right = (0, Bounds::EMPTY);
+        for cut in (1..BINS).rev() {
+            let (count, bounds) = bins[axis][cut];
+            right = (right.0 + count, right.1.and(bounds));
+            right_cost[cut] = leaves(right.0) * right.1.half_area();
+        }
+        let mut left = (0, Bounds::EMPTY);
+        for cut in 1..BINS {
+            let (count, bounds) = bins[axis][cut - 1];
+            left = (left.0 + count, left.1.and(bounds));
+            let cost = leaves(left.0) * left.1.half_area() + right_cost[cut];
+            if left.0 > 0 && left.0 < items.len() && cost < best.0 {
+                best = (cost, axis, cut);
+            }
+        }
+    }
+    let (cost, axis, cut) = best;
+    let middle = if cost < f32::INFINITY {
+        let mut middle = 0;
+        for place in 0..items.len() {
+            if bin(&items[place], axis) < cut {
+                items.swap(place, middle);
+                middle += 1;
+            }
+        }
+        middle
+    } else {
+        items.len() / 2
+    };
+    items.split_at_mut(middle)
+}
+
+/// How many leaves `count` triangles fill at least.
+fn leaves(count: usize) -> f32 {
+    count.div_ceil(IN_LEAF) as f32
+}

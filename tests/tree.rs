@@ -1,0 +1,66 @@
+//! The tree of large scenes never changes a hit.
+
+use glam::Vec3;
+use photon_mapping::scene::ray::Ray;
+use photon_mapping::scene::tree::Tree;
+use photon_mapping::scene::triangle::{ShearedRay, Triangle};
+use proptest::prelude::*;
+
+fn brute_force(triangles: &[Triangle], ray: &Ray) -> Option<(usize, f32)> {
+    let sheared = ShearedRay::new(ray);
+    let hits = triangles.iter().enumerate().filter_map(|(index, triangle)| {
+        Some((index, triangle.intersect(&sheared).filter(|t| *t < ray.max_t)?))
+    });
+    hits.reduce(|best, hit| if hit.1 < best.1 { hit } else { best })
+}
+
+fn triangle(vertices: [Vec3; 3]) -> Triangle {
+    Triangle { vertices, normal: Vec3::Z, parent_mesh_object: 0, facet: 0 }
+}
+
+/// A coordinate that other points often share.
+fn coordinate() -> impl Strategy<Value = f32> {
+    prop_oneof![(-5_i8..=5).prop_map(f32::from), -5.0_f32..5.0]
+}
+
+fn point() -> impl Strategy<Value = Vec3> {
+    (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| Vec3::new(x, y, z))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_tree_finds_what_testing_all_finds(
+        corners in prop::collection::vec([point(), point(), point()], 1..200),
+        shrink in prop_oneof![Just(1.0_f32), Just(0.1)],
+        shift in prop_oneof![Just(0.0_f32), Just(1e4)],
+        rays in prop::collection::vec((point(), point(), 0.1_f32..20.0), 40),
+    ) {
+        let triangles: Vec<_> = corners
+            .iter()
+            .map(|[a, b, c]| {
+                let near = |corner: &Vec3| *a + shrink * (*corner - *a) + Vec3::splat(shift);
+                triangle([near(a), near(b), near(c)])
+            })
+            .collect();
+        let tree = Tree::new(&triangles);
+        for (place, (origin, target, max_t)) in rays.iter().enumerate() {
+            let origin = *origin + Vec3::splat(shift);
+            // Every other ray aims at a corner or at the middle of an edge.
+            let aim = match triangles.get(place / 2) {
+                Some(triangle) if place % 4 == 0 => triangle.vertices[0],
+                Some(triangle) if place % 4 == 2 => 0.5 * (triangle.vertices[0] + triangle.vertices[1]),
+                _ => *target + Vec3::splat(shift),
+            };
+            let Some(direction) = (aim - origin).try_normalize() else {
+                continue;
+            };
+            let mut ray = Ray::new(origin, direction);
+            prop_assert_eq!(tree.closest(&ray), brute_force(&triangles, &ray));
+            ray.max_t = *max_t;
+            prop_assert_eq!(tree.closest(&ray), brute_force(&triangles, &ray));
+            prop_assert_eq!(tree.any(&ray), brute_force(&triangles, &ray).is_some());
+        }
+    }
+}
