@@ -6,14 +6,14 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use glam::Vec3;
 use photon_mapping::assignment8;
+use photon_mapping::lanes::width::Width;
+use photon_mapping::lanes::{LaneTracer, picture};
 use photon_mapping::photon_list::record::PhotonRecord;
 use photon_mapping::photon_list::trace::{trace_list, trace_piece};
 use photon_mapping::photon_list::writer::{Format, ListHash, ListWriter};
 use photon_mapping::photon_list::{reader, record};
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::image_writer;
-use photon_mapping::rendering::lanes::width::Width;
-use photon_mapping::rendering::lanes::{LaneTracer, picture};
 use photon_mapping::rendering::photon_map::PhotonMap;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,

@@ -2,12 +2,12 @@
 
 use glam::Vec3;
 use photon_mapping::assignment8;
+use photon_mapping::lanes::width::Width;
+use photon_mapping::lanes::{LaneTracer, picture};
 use photon_mapping::photon_list::record::PhotonRecord;
 use photon_mapping::photon_list::trace::trace_piece;
 use photon_mapping::photon_list::writer::ListHash;
 use photon_mapping::rendering::image_writer;
-use photon_mapping::rendering::lanes::width::Width;
-use photon_mapping::rendering::lanes::{LaneTracer, picture};
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use photon_mapping::rendering::reading::{Offset, Reading};
 use photon_mapping::scene::Scene;

@@ -12,9 +12,10 @@ use super::output::OutputFile;
 use super::run_args::RunArgs;
 use crate::compare::pictures::compare_pictures;
 use crate::compare::report::{Outcome, compare, scene_size};
-use crate::photon_list::provenance::provenance;
+use crate::photon_list::ply;
 use crate::photon_list::reader::{self, PhotonList};
 use crate::photon_list::record::{Columns, PhotonRecord};
+use crate::photon_list::run::Run;
 use crate::photon_list::trace::trace_list;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 
@@ -124,15 +125,20 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
 
 /// Sets what the arguments leave open to what the list `reference` says of its run.
 fn name_run(arguments: &CompareArgs, reference: &Path, renderer: &mut PhotonMappingRenderer) {
-    let Some(provenance) = provenance(reference) else { return };
+    // What a pipe has given once it does not give again.
+    if !reference.is_file() {
+        return;
+    }
+    let comments = ply::comments(reference).unwrap_or_default();
+    let Some(run) = Run::from_comments(&comments) else { return };
     if arguments.run.seed.is_none() {
-        renderer.seed = provenance.seed;
+        renderer.seed = run.seed;
     }
     if arguments.run.photons.is_none() {
-        renderer.photon_count = provenance.emitted;
+        renderer.photon_count = run.emitted;
     }
     if arguments.run.max_bounces.is_none() {
-        renderer.max_photon_bounces = provenance.max_bounces;
+        renderer.max_photon_bounces = run.max_bounces;
     }
 }
 

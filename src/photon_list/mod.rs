@@ -6,7 +6,6 @@
 pub mod csv;
 pub mod error;
 pub mod ply;
-pub mod provenance;
 pub mod reader;
 pub mod record;
 pub mod run;

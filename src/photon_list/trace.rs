@@ -5,8 +5,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::record::PhotonRecord;
-use crate::rendering::lanes::LaneTracer;
-use crate::rendering::lanes::width::Width;
+use crate::lanes::LaneTracer;
+use crate::lanes::width::Width;
 use crate::rendering::photon::Photon;
 use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 

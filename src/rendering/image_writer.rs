@@ -31,6 +31,6 @@ pub fn take_picture(
 }
 
 /// Each channel times 255, cut off at 0 and 255 and truncated; no gamma.
-pub(super) fn to_bytes(color: Vec3) -> [u8; 3] {
+pub(crate) fn to_bytes(color: Vec3) -> [u8; 3] {
     (color * 255.0).clamp(Vec3::ZERO, Vec3::splat(255.0)).to_array().map(|channel| channel as u8)
 }

@@ -2,7 +2,6 @@
 
 pub mod backward_renderer;
 pub mod image_writer;
-pub mod lanes;
 pub mod photon;
 pub mod photon_map;
 pub mod photon_mapping_renderer;

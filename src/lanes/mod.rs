@@ -30,9 +30,9 @@ pub mod width;
 
 use std::ops::Range;
 
-use super::photon_mapping_renderer::PhotonMappingRenderer;
-use super::sampling::tangent_frame;
 use crate::photon_list::record::PhotonRecord;
+use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::sampling::tangent_frame;
 use crate::scene::triangle::Triangle;
 use closest_hit::SharedCorners;
 use outlook::Outlook;
