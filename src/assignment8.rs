@@ -5,6 +5,7 @@ use glam::Vec3;
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
+use crate::rendering::sampler::Sampler;
 use crate::scene::Scene;
 use crate::scene::camera::PerspectiveCamera;
 use crate::scene::lights::point_light::PointLight;
@@ -54,6 +55,7 @@ pub fn create_renderer(scene: Scene) -> PhotonMappingRenderer {
         max_photon_bounces: MAX_PHOTON_BOUNCES,
         seed: SEED,
         reading: Reading::REFERENCE,
+        sampler: Sampler::ChaCha,
         diffuse_map: PhotonMap::default(),
     }
 }
