@@ -4,8 +4,8 @@
 //! the renderer, [`scene::lights::point_light`] sends photons out, and
 //! [`rendering::photon_mapping_renderer`] follows, stores and shows them. `ASSIGNMENT.md` reads
 //! along. The rooms above look on and are not needed to understand it: [`photon_list`] keeps exact
-//! lists, [`accuracy`] computes what is expected without tracing, [`summary`] holds a run against it, and
-//! [`cli`] is the command line.
+//! lists, [`accuracy`] computes what is expected without tracing, [`summary`] holds a run against it,
+//! [`report`] measures what accuracy costs, and [`cli`] is the command line.
 
 pub mod accuracy;
 pub mod assignment8;
@@ -13,6 +13,7 @@ pub mod cli;
 pub mod photon_list;
 pub mod random;
 pub mod rendering;
+pub mod report;
 pub mod scene;
 pub mod summary;
 pub mod text_table;

@@ -4,6 +4,7 @@ pub mod error;
 pub mod expect;
 pub mod output;
 pub mod render;
+pub mod report;
 pub mod values;
 
 use clap::{Parser, Subcommand};
@@ -34,6 +35,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     /// Compute how many hits are expected, without tracing a photon
     Expect(expect::ExpectArgs),
+    /// Measure speed and accuracy, and write a page with plots and data
+    Report(report::ReportArgs),
 }
 
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
@@ -56,6 +59,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Expect(arguments)) => expect::run(&arguments),
+        Some(Command::Report(arguments)) => report::run(&arguments),
     };
     match result {
         Ok(code) => code,
