@@ -269,8 +269,8 @@ fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
         let theory = (speed.deviation_of_one() / goal).powi(2);
         let _ = writeln!(
             text,
-            "- To {} of the stored total: **{} photons**, **{} s** at {} photons/s (theory: {} photons).",
-            percent(goal),
+            "- To {} % of the stored total: **{} photons**, **{} s** at {} photons/s (theory: {} photons).",
+            100.0 * goal,
             short(photons, 3),
             short(photons / photons_per_second, 3),
             short(photons_per_second, 3),

@@ -54,7 +54,7 @@ pub fn short(number: f64, count: i32) -> String {
         return if number == 0.0 { "0".to_owned() } else { "-".to_owned() };
     }
     let power = number.abs().log10().floor() as i32;
-    if !(-5..7).contains(&power) {
+    if !(-3..6).contains(&power) {
         return format!("{number:.*e}", (count - 1).max(0) as usize);
     }
     format!("{number:.*}", (count - 1 - power).max(0) as usize)

@@ -28,6 +28,16 @@ pub enum Mark {
     Hollow,
 }
 
+impl Mark {
+    fn is_dashed(self) -> bool {
+        matches!(self, Self::Dashes | Self::Hollow)
+    }
+
+    fn has_circles(self) -> bool {
+        !matches!(self, Self::Dashes | Self::Plain)
+    }
+}
+
 /// Points of one kind.
 pub struct Line {
     /// In the legend.
@@ -50,7 +60,9 @@ const PALETTE: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(230, 159, 0),
 ];
-const WIDTH: u32 = 760;
+const WIDTH: u32 = 900;
+/// Of which this much is the legend's.
+const LEGEND: u32 = 220;
 const HEIGHT: u32 = 460;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -77,10 +89,11 @@ fn draw_all<'a>(root: &Area<'a>, plots: &[(Axes, Vec<Line>)]) -> Result<(), Fail
 }
 
 fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Failure<'a>> {
+    let (area, legend) = area.split_horizontally(WIDTH - LEGEND);
     let points = || lines.iter().flat_map(|line| line.points.iter());
     let (x_low, x_high) = range(points().map(|point| point.0));
     let (y_low, y_high) = range(points().map(|point| point.1));
-    let mut chart = ChartBuilder::on(area)
+    let mut chart = ChartBuilder::on(&area)
         .caption(&axes.title, ("sans-serif", 20))
         .margin(12)
         .margin_right(24)
@@ -103,7 +116,7 @@ fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Fail
     for line in lines {
         let colour = PALETTE[line.colour % PALETTE.len()];
         let stroke = colour.stroke_width(2);
-        let dashed = matches!(line.mark, Mark::Dashes | Mark::Hollow);
+        let dashed = line.mark.is_dashed();
         if dashed {
             let dashes = DashedLineSeries::new(line.points.clone(), 6, 4, stroke);
             chart.draw_series(dashes)?;
@@ -111,7 +124,7 @@ fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Fail
             chart.draw_series(LineSeries::new(line.points.clone(), stroke))?;
         }
         let fill = if dashed { WHITE.filled() } else { colour.filled() };
-        if !matches!(line.mark, Mark::Dashes | Mark::Plain) {
+        if line.mark.has_circles() {
             let circle = |point: &(f64, f64)| Circle::new(*point, 4, fill);
             chart.draw_series(line.points.iter().map(circle))?;
             let ring = |point: &(f64, f64)| Circle::new(*point, 4, colour.stroke_width(2));
@@ -123,29 +136,35 @@ fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Fail
             };
             chart.draw_series(line.points.iter().map(bar))?;
         }
-        // The legend's entry is drawn by a series without points.
-        let legend = chart.draw_series(LineSeries::new(Vec::<(f64, f64)>::new(), stroke))?;
-        legend.label(&line.name).legend(move |(x, y)| {
-            let ends = if dashed { vec![(x, y), (x + 8, y)] } else { vec![(x, y), (x + 20, y)] };
-            PathElement::new(ends, stroke)
-        });
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.85))
-        .border_style(RGBColor(200, 200, 200))
-        .label_font(("sans-serif", 14))
-        .draw()
+    draw_legend(&legend, lines)
 }
 
-/// Whole decades around `values`, with room at both ends.
+/// Names the lines, beside the plot, where nothing is hidden.
+fn draw_legend<'a>(area: &Area<'a>, lines: &[Line]) -> Result<(), Failure<'a>> {
+    for (row, line) in lines.iter().enumerate() {
+        let y = 60 + 24 * row as i32;
+        let colour = PALETTE[line.colour % PALETTE.len()];
+        let dashes = if line.mark.is_dashed() { vec![0, 10, 18] } else { vec![0] };
+        let length = if line.mark.is_dashed() { 6 } else { 24 };
+        for x in dashes {
+            area.draw(&PathElement::new([(x, y), (x + length, y)], colour.stroke_width(2)))?;
+        }
+        if line.mark.has_circles() {
+            let fill = if line.mark.is_dashed() { WHITE.filled() } else { colour.filled() };
+            area.draw(&Circle::new((12, y), 4, fill))?;
+            area.draw(&Circle::new((12, y), 4, colour.stroke_width(2)))?;
+        }
+        area.draw(&Text::new(line.name.clone(), (32, y - 7), ("sans-serif", 14)))?;
+    }
+    Ok(())
+}
+
+/// From below to above `values`, with room at both ends and at least one power of ten.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
-    let low = 10_f64.powf((low / 1.3).log10().floor());
-    let high = 10_f64.powf((high * 1.3).log10().ceil());
-    (low, high)
+    (low / 2.0, (high * 2.0).max(low * 10.0))
 }
 
 fn power_of_ten(value: f64) -> String {
