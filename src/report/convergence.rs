@@ -264,16 +264,19 @@ fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
     let squares =
         speed.sizes.iter().zip(&curves[0]).map(|(size, error)| *size as f64 * error * error);
     let constant = squares.sum::<f64>() / speed.sizes.len() as f64;
+    let known_within = rms_factor(speed.seeds * speed.sizes.len() as u64).powi(2);
     for goal in [0.01, 0.001] {
         let photons = constant / (goal * goal);
         let theory = (speed.deviation_of_one() / goal).powi(2);
         let _ = writeln!(
             text,
-            "- To {} % of the stored total: **{} photons**, **{} s** at {} photons/s (theory: {} photons).",
+            "- To {} % of the stored total: **{} photons**, **{} s** at {} photons/s. 95 %: {} to {} photons; theory: {}.",
             100.0 * goal,
             short(photons, 3),
             short(photons / photons_per_second, 3),
             short(photons_per_second, 3),
+            short(photons / known_within, 3),
+            short(photons * known_within, 3),
             short(theory, 3),
         );
     }

@@ -57,10 +57,44 @@ pub fn short(number: f64, count: i32) -> String {
     if !(-3..6).contains(&power) {
         return format!("{number:.*e}", (count - 1).max(0) as usize);
     }
-    format!("{number:.*}", (count - 1 - power).max(0) as usize)
+    // Digits before the point that do not count are zeros.
+    let unit = 10_f64.powi((power + 1 - count).max(0));
+    let rounded = (number / unit).round() * unit;
+    let rounded = if unit > 1.0 { rounded } else { number };
+    format!("{rounded:.*}", (count - 1 - power).max(0) as usize)
 }
 
 /// A fraction as percent.
 pub fn percent(fraction: f64) -> String {
     format!("{} %", short(100.0 * fraction, 3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_the_digits_that_count() {
+        let known = [
+            (0.0, "0"),
+            (1.0, "1.00"),
+            (252_962.0, "253000"),
+            (25_300_000.0, "2.53e7"),
+            (-0.012_34, "-0.0123"),
+            (0.000_123_4, "1.23e-4"),
+            (f64::INFINITY, "-"),
+        ];
+        for (number, text) in known {
+            assert_eq!(short(number, 3), text);
+        }
+        assert_eq!(percent(0.0199), "1.99 %");
+    }
+
+    #[test]
+    fn tables_as_csv_and_markdown() {
+        let mut table = Table::new("a b");
+        table.push(["1", "2"].map(str::to_owned));
+        assert_eq!(table.csv(), "a,b\n1,2\n");
+        assert_eq!(table.markdown(), "| a | b |\n|---|---:|\n| 1 | 2 |\n");
+    }
 }

@@ -9,8 +9,8 @@ use crate::assignment8;
 /// The section of the page.
 pub fn section(plan: &Plan) -> Section {
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
-    let seeds = |size| {
-        let (first, last) = (Plan::seed(size, 0), Plan::seed(size, plan.seeds - 1));
+    let seeds = |size, count| {
+        let (first, last) = (Plan::seed(size, 0), Plan::seed(size, count - 1));
         format!("{first} to {last}")
     };
     let mut text = String::from("## 5. Machine, versions, seeds, commands\n\n| | |\n|---|---|\n");
@@ -26,11 +26,14 @@ pub fn section(plan: &Plan) -> Section {
     row("program", concat!("photon-mapping ", env!("CARGO_PKG_VERSION")));
     row("this report", &format!("`photon-mapping report{}`", plan.options));
     for (number, size) in plan.sizes.iter().enumerate() {
-        row(&format!("seeds of section 1, {size} emitted"), &seeds(number));
+        row(&format!("seeds of section 1, {size} emitted"), &seeds(number, plan.seeds));
     }
     row("sections 2 and 3", &format!("seed {}", assignment8::SEED));
     for (number, size) in plan.sampler_sizes.iter().enumerate() {
-        row(&format!("seeds of section 4, {size} emitted"), &seeds(100 + number));
+        row(
+            &format!("seeds of section 4, {size} emitted"),
+            &seeds(100 + number, plan.sampler_seeds),
+        );
     }
     row("one run again", "`photon-mapping render --seed S --photons N --json`");
     row("what is expected", "`photon-mapping expect --json`");

@@ -152,7 +152,7 @@ fn markdown(plan: &Plan, cases: &[Case], expected: &ExpectedTable) -> String {
          plane. A leak is a hit from behind, or on the floor inside a box's footprint. Lost are photons missing from \
          what is expected, counted before anything else went wrong on their path, where that is more than three standard \
          deviations ({} here). {} photons a case; fixed offsets are in units of the scene as it comes, the last rule \
-         is what the program does with a model that it loads.\n",
+         is what the program does with a model that it loads. Wrong, in the plot, is the sum of the three.\n",
         short(deviation(expected, plan.offset_photons), 2),
         plan.offset_photons
     );

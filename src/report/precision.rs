@@ -151,12 +151,19 @@ pub fn section(precision: &Precision) -> Section {
     let _ = writeln!(
         text,
         "\n- **{} of a million paths decide otherwise**: {} in all, {} accept another try of the emission, {} hit \
-         another facet, {} hit where the other escapes. The roulette cannot differ: both compare the same numbers.",
+         another facet, {} hit where the other escapes. The roulette cannot differ: both compare the same numbers.{}",
         short(per_million, 3),
         other,
         precision.emission,
         precision.other_facet,
-        precision.hit_or_escape
+        precision.hit_or_escape,
+        if other == 0 {
+            // The rule of three: this many would show at least once with 95 %.
+            let most = short(3e6 / precision.photons as f64, 2);
+            format!(" With none seen, fewer than {most} of a million are likely (95 %).")
+        } else {
+            String::new()
+        }
     );
     let _ = writeln!(
         text,

@@ -44,7 +44,7 @@ pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Samplers {
     let base = assignment8::create_renderer(assignment8::create_scene());
     let mut runs = Vec::new();
     for (number, emitted) in plan.sampler_sizes.iter().enumerate() {
-        for seed in 0..plan.seeds {
+        for seed in 0..plan.sampler_seeds {
             for sampler in [Sampler::ChaCha, Sampler::Sobol] {
                 let seed = Plan::seed(100 + number, seed);
                 let renderer =
@@ -59,7 +59,7 @@ pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Samplers {
             progress(2 * emitted);
         }
     }
-    Samplers { sizes: plan.sampler_sizes.clone(), seeds: plan.seeds, expected, runs }
+    Samplers { sizes: plan.sampler_sizes.clone(), seeds: plan.sampler_seeds, expected, runs }
 }
 
 impl Samplers {
