@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
+use crate::rendering::sampler::Sampler;
 use crate::scene::Scene;
 use crate::scene::camera::PerspectiveCamera;
 use crate::scene::obj::{self, ModelLight};
@@ -53,6 +54,7 @@ pub fn create_renderer(scene: Scene) -> PhotonMappingRenderer {
         max_photon_bounces: MAX_PHOTON_BOUNCES,
         seed: SEED,
         reading: Reading::REFERENCE,
+        sampler: Sampler::ChaCha,
         diffuse_map: PhotonMap::default(),
     }
 }

@@ -6,7 +6,8 @@
 //! along. The rooms above look on and are not needed to understand it: [`photon_list`] keeps exact
 //! lists, [`lanes`] traces them faster and to the same bits, [`accuracy`] computes what is expected
 //! without tracing, [`summary`] holds a run against it, [`explain`] tells the story of one photon,
-//! [`compare`] says where two lists part and why, and [`cli`] is the command line.
+//! [`compare`] says where two lists part and why, [`report`] measures what accuracy costs, and [`cli`]
+//! is the command line.
 
 pub mod accuracy;
 pub mod assignment8;
@@ -17,6 +18,7 @@ pub mod lanes;
 pub mod photon_list;
 pub mod random;
 pub mod rendering;
+pub mod report;
 pub mod scene;
 pub mod summary;
 pub mod text_table;

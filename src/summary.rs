@@ -222,6 +222,14 @@ pub struct SurfaceSummary {
     pub late: Cell,
 }
 
+impl SurfaceSummary {
+    /// Removes all differences in standard deviations, where photons are not independent.
+    pub fn forget_z(&mut self) {
+        self.z = None;
+        self.by_bounce.iter_mut().chain([&mut self.late]).for_each(|cell| cell.z = None);
+    }
+}
+
 /// The table as text, a line for every surface and one for the total.
 pub fn table(surfaces: &[SurfaceSummary]) -> String {
     let mut heads = vec!["surface".to_owned()];

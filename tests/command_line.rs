@@ -380,3 +380,40 @@ fn interrupt_leaves_no_half_file() {
     assert_eq!(output.status.code(), Some(130));
     assert!(files(&out).is_empty());
 }
+
+#[test]
+fn sobol_sampler_is_a_labelled_extra() {
+    let folder = folder();
+    let render = |more: &[&str]| {
+        let mut arguments = vec!["render", "--photons", "20000", "--size", "8x6", "--json"];
+        arguments.extend(more);
+        let summary = json(&succeed(&folder, &arguments));
+        let header = fs::read(folder.path().join("out/photons.ply")).unwrap();
+        (summary, String::from_utf8_lossy(&header[..600]).into_owned())
+    };
+    let (plain, header) = render(&[]);
+    assert!(plain.get("sampler").is_none() && !header.contains("sampler"));
+    assert!(plain["total"]["z"].is_number());
+    let (named, _) = render(&["--sampler", "chacha"]);
+    assert_eq!(named["sha256"], plain["sha256"]);
+
+    let (sobol, header) = render(&["--sampler", "sobol", "--threads", "1"]);
+    assert_eq!(sobol["sampler"], "sobol");
+    assert!(header.contains("comment sampler sobol\n"), "{header}");
+    assert_ne!(sobol["sha256"], plain["sha256"]);
+    // Its photons are not independent: what is expected is known, its spread is not.
+    assert!(sobol["total"]["expected"].is_number() && sobol["total"]["z"].is_null());
+    assert!(sobol["surfaces"][0]["by_bounce"][0]["z"].is_null());
+    for threads in ["2", "7"] {
+        let (again, _) = render(&["--sampler", "sobol", "--threads", threads]);
+        assert_eq!(again["sha256"], sobol["sha256"], "{threads} threads");
+    }
+    let text = succeed(
+        &folder,
+        &["--photons", "2000", "--size", "8x6", "--sampler", "sobol", "--out", "other"],
+    );
+    assert!(text.contains("seed 148, sampler sobol: 2000 photons emitted"), "{text}");
+    assert!(!text.contains("standard deviations"), "{text}");
+    fail(&folder, &["--sampler", "halton"], &["halton"]);
+    fail(&folder, &["--photons-from", "a.ply", "--sampler", "sobol"], &["--sampler"]);
+}

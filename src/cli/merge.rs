@@ -174,6 +174,7 @@ fn summary(whole: &Run, tally: &Tally) -> Summary {
         run: None,
         counts: None,
         seed: Some(whole.seed),
+        sampler: None,
         emitted: Some(emitted),
         stored: tally.stored(),
         sha256: None,

@@ -7,6 +7,7 @@ pub mod explain;
 pub mod merge;
 pub mod output;
 pub mod render;
+pub mod report;
 pub mod run_args;
 pub mod values;
 
@@ -44,6 +45,8 @@ enum Command {
     Expect(expect::ExpectArgs),
     /// Join the lists, or the count-only summaries, of adjoining ranges of one run
     Merge(merge::MergeArgs),
+    /// Measure speed and accuracy, and write a page with plots and data
+    Report(report::ReportArgs),
 }
 
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
@@ -69,6 +72,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
         Some(Command::Merge(arguments)) => merge::run(&arguments),
+        Some(Command::Report(arguments)) => report::run(&arguments),
     };
     match result {
         Ok(code) => code,

@@ -26,6 +26,7 @@ use crate::photon_list::writer::{Format, ListHash, ListWriter};
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::Reading;
+use crate::rendering::sampler::Sampler;
 use crate::scene::Scene;
 use crate::scene::triangle::Triangle;
 use crate::summary::{Counts, SurfaceSummary, Tally, table};
@@ -54,7 +55,7 @@ pub struct RenderArgs {
     /// Trace nothing: draw the dots of this list, PLY or CSV, with at least the columns x, y and z
     #[arg(long, value_name = "FILE",
           conflicts_with_all = ["seed", "photons", "max_bounces", "range", "format",
-                                "letter_of_the_handout"])]
+                                "letter_of_the_handout", "sampler"])]
     photons_from: Option<PathBuf>,
     /// The format of the list
     #[arg(long, value_enum, default_value_t = FormatName::Ply)]
@@ -63,6 +64,9 @@ pub struct RenderArgs {
     /// photons; `merge` adds up the JSON summaries of adjoining ranges
     #[arg(long, conflicts_with_all = ["photons_from", "format", "size", "out"])]
     count_only: bool,
+    /// Where the random numbers come from; all golden lists belong to chacha
+    #[arg(long, value_enum, default_value_t = SamplerName::Chacha)]
+    sampler: SamplerName,
     /// No progress bars
     #[arg(long, short)]
     quiet: bool,
@@ -80,6 +84,15 @@ enum FormatName {
     Csv,
 }
 
+/// The names of the samplers.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SamplerName {
+    /// A ChaCha stream for every photon: the reference
+    Chacha,
+    /// An Owen-scrambled Sobol sequence: other photons, whose counts are closer to what is expected
+    Sobol,
+}
+
 /// What a run did.
 #[derive(Debug, Serialize)]
 pub(super) struct Summary {
@@ -88,6 +101,9 @@ pub(super) struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) counts: Option<Counts>,
     pub(super) seed: Option<u64>,
+    /// Named only where it is not the reference's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) sampler: Option<&'static str>,
     pub(super) emitted: Option<u64>,
     pub(super) stored: u64,
     pub(super) sha256: Option<String>,
@@ -131,6 +147,10 @@ pub(super) fn print_summary(summary: &Summary, as_json: bool) -> Result<u8, CliE
 
 fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let mut renderer = arguments.run.renderer()?;
+    renderer.sampler = match arguments.sampler {
+        SamplerName::Chacha => Sampler::ChaCha,
+        SamplerName::Sobol => Sampler::Sobol,
+    };
     if arguments.count_only {
         return count(arguments, &renderer);
     }
@@ -202,13 +222,12 @@ fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Sum
     })?;
     progress.finish_and_clear();
     let emitted = photons.end - photons.start;
-    let expected = expected(arguments, renderer, &photons);
-    let max_bounces = renderer.max_photon_bounces as usize;
-    let (surfaces, total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
+    let (surfaces, total) = judge(arguments, renderer, &photons, &tally);
     Ok(Summary {
         counts: Some(tally.counts()),
         run: Some(Run::new(renderer, photons)),
         seed: Some(renderer.seed),
+        sampler: other_sampler(renderer),
         emitted: Some(emitted),
         stored: tally.stored(),
         sha256: Some(hash.hex()),
@@ -253,13 +272,12 @@ fn trace(
     progress.finish_and_clear();
     renderer.diffuse_map = PhotonMap::new(positions);
     let emitted = photons.end - photons.start;
-    let expected = expected(arguments, renderer, &photons);
-    let max_bounces = renderer.max_photon_bounces as usize;
-    let (surfaces, total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
+    let (surfaces, total) = judge(arguments, renderer, &photons, &tally);
     let summary = Summary {
         run: None,
         counts: None,
         seed: Some(renderer.seed),
+        sampler: other_sampler(renderer),
         emitted: Some(emitted),
         stored: tally.stored(),
         sha256: Some(hash.hex()),
@@ -306,6 +324,7 @@ fn read_list(
         run: None,
         counts: None,
         seed: None,
+        sampler: None,
         emitted: None,
         stored,
         sha256: columns.all().then(|| hash.hex()),
@@ -314,6 +333,24 @@ fn read_list(
         total,
         files: Vec::new(),
     })
+}
+
+/// The tally of the photons `photons` beside what is expected, and all surfaces together.
+fn judge(
+    arguments: &RenderArgs,
+    renderer: &PhotonMappingRenderer,
+    photons: &Range<u64>,
+    tally: &Tally,
+) -> (Vec<SurfaceSummary>, SurfaceSummary) {
+    let emitted = photons.end - photons.start;
+    let expected = expected(arguments, renderer, photons);
+    let max_bounces = renderer.max_photon_bounces as usize;
+    let (mut surfaces, mut total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
+    if renderer.sampler != Sampler::ChaCha {
+        // Standard deviations are those of independent photons.
+        surfaces.iter_mut().chain([&mut total]).for_each(SurfaceSummary::forget_z);
+    }
+    (surfaces, total)
 }
 
 /// What the photons of a run are expected to do, where that is known or soon computed.
@@ -351,9 +388,15 @@ fn tally(scene: &Scene) -> Tally {
     Tally::new(scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()))
 }
 
+/// The sampler's name where it is not the reference's.
+fn other_sampler(renderer: &PhotonMappingRenderer) -> Option<&'static str> {
+    (renderer.sampler != Sampler::ChaCha).then(|| renderer.sampler.name())
+}
+
 /// What the header of a PLY list says of the run.
 fn comments(renderer: &PhotonMappingRenderer, photons: &Range<u64>) -> Vec<String> {
     let mut comments = Run::new(renderer, photons.clone()).comments();
+    comments.extend(other_sampler(renderer).map(|name| format!("sampler {name}")));
     let mesh_objects = renderer.stored_scene.mesh_objects().iter().enumerate();
     comments.extend(mesh_objects.map(|(index, mesh)| format!("surface {index} {}", mesh.name)));
     comments
@@ -371,7 +414,9 @@ fn progress(arguments: &RenderArgs, what: &'static str, length: u64) -> Progress
 fn text(summary: &Summary) -> String {
     let mut text = String::new();
     if let (Some(seed), Some(emitted)) = (summary.seed, summary.emitted) {
-        text += &format!("seed {seed}: {emitted} photons emitted, {} stored\n\n", summary.stored);
+        let sampler = summary.sampler.map(|name| format!(", sampler {name}")).unwrap_or_default();
+        let stored = summary.stored;
+        text += &format!("seed {seed}{sampler}: {emitted} photons emitted, {stored} stored\n\n");
     } else {
         text += &format!("{} photons read\n\n", summary.stored);
     }
@@ -379,7 +424,10 @@ fn text(summary: &Summary) -> String {
         let lines: Vec<_> = summary.surfaces.iter().chain(&summary.total).cloned().collect();
         text += &table(&lines);
         if summary.surfaces.iter().any(|surface| surface.expected.is_some()) {
-            text += "stored / expected (difference in standard deviations)\n";
+            text += match summary.sampler {
+                None => "stored / expected (difference in standard deviations)\n",
+                Some(_) => "stored / expected\n",
+            };
         }
         text += "\n";
     }

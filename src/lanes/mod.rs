@@ -32,6 +32,7 @@ use std::ops::Range;
 
 use crate::photon_list::record::PhotonRecord;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::sampler::Sampler;
 use crate::rendering::sampling::tangent_frame;
 use crate::scene::triangle::Triangle;
 use closest_hit::SharedCorners;
@@ -74,10 +75,13 @@ impl Surface {
 
 impl<'renderer> LaneTracer<'renderer> {
     /// Prepares `renderer`'s scene for vectors of `width`; `None` when the scene or the run is too
-    /// large for lanes.
+    /// large for lanes, or the numbers are not ChaCha's.
     pub fn new(renderer: &'renderer PhotonMappingRenderer, width: Width) -> Option<Self> {
         let scene = &renderer.stored_scene;
-        if scene.triangles().len() > MOST_TRIANGLES || renderer.emitted() > 1 << 32 {
+        if scene.triangles().len() > MOST_TRIANGLES
+            || renderer.sampler != Sampler::ChaCha
+            || renderer.emitted() > 1 << 32
+        {
             return None;
         }
         let surfaces = scene.triangles().iter().map(|triangle| Surface::new(renderer, triangle));

@@ -106,7 +106,7 @@ fn scene_digest(renderer: &PhotonMappingRenderer) -> [u8; 8] {
     let mut hash = Sha256::new();
     // The debug format of floats has as many digits as bring back the same bits.
     hash.update(format!("{:?} {:?}", scene.mesh_objects(), scene.lights()));
-    hash.update(format!("{:?}", renderer.reading));
+    hash.update(format!("{:?} {:?}", renderer.reading, renderer.sampler));
     for triangle in scene.triangles() {
         let [a, b, c] = triangle.vertices;
         for vector in [a, b, c, triangle.normal] {

@@ -6,4 +6,6 @@ pub mod photon;
 pub mod photon_map;
 pub mod photon_mapping_renderer;
 pub mod reading;
+pub mod sampler;
 pub mod sampling;
+pub mod sobol;

@@ -8,8 +8,8 @@ use super::backward_renderer::BackwardRenderer;
 use super::photon::Photon;
 use super::photon_map::PhotonMap;
 use super::reading::Reading;
+use super::sampler::Sampler;
 use super::sampling::{sample_hemisphere, tangent_frame};
-use crate::random::photon_random;
 use crate::scene::Scene;
 use crate::scene::intersection_state::IntersectionState;
 use crate::scene::lights::point_light::PointLight;
@@ -41,6 +41,8 @@ pub struct PhotonMappingRenderer {
     pub seed: u64,
     /// How the handout is read where it leaves something open.
     pub reading: Reading,
+    /// What gives the random numbers.
+    pub sampler: Sampler,
     /// The photons stored by [`Self::initialize_renderer`].
     pub diffuse_map: PhotonMap,
 }
@@ -73,8 +75,7 @@ impl PhotonMappingRenderer {
             let light_intensity = light.color / light_photons as f32;
             let of_light = first_of_light..first_of_light + light_photons;
             for photon in of_light.start.max(photons.start)..of_light.end.min(photons.end) {
-                let mut rand = photon_random(self.seed, photon);
-                let photon_ray = light.generate_random_photon_ray(&mut rand);
+                let (photon_ray, mut rand) = self.sampler.start_photon(light, self.seed, photon);
                 let stored_before = photon_map.len();
                 path.clear();
                 path.push(PathVertex::Light);
