@@ -209,6 +209,24 @@ fn quiet_and_piped_runs_show_no_progress() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn unwritable_standard_error_is_no_panic() {
+    let folder = folder();
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let status = program(&folder).args(["--photons", "0"]).stderr(full).status().unwrap();
+    assert_eq!(status.code(), Some(2));
+}
+
+#[test]
+fn byte_order_marks_are_passed_over() {
+    let folder = folder();
+    fs::write(folder.path().join("m.mtl"), "\u{feff}newmtl m\nKd 0.5 0.5 0.5\n").unwrap();
+    let model = "\u{feff}mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.path().join("m.obj"), model).unwrap();
+    succeed(&folder, &["--scene", "m.obj", "--light", "0,0,1", "--photons", "10", "--size", "8x6"]);
+}
+
 #[test]
 fn closed_pipe_is_no_error() {
     let folder = folder();
@@ -224,6 +242,20 @@ fn closed_pipe_is_no_error() {
 }
 
 #[test]
+fn closed_pipe_keeps_the_exit_code() {
+    let folder = folder();
+    fs::write(folder.path().join("a.csv"), "x,y,z\n1,0,0\n").unwrap();
+    fs::write(folder.path().join("b.csv"), "x,y,z\n0,1,0\n").unwrap();
+    let mut child = program(&folder)
+        .args(["compare", "a.csv", "b.csv"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    assert_eq!(child.wait().unwrap().code(), Some(1), "the lists differ, whoever reads it");
+}
+
+#[test]
 fn help_gives_units_and_defaults() {
     let help = succeed(&folder(), &["render", "--help"]);
     for part in ["[default: 148]", "[default: 1000000]", "[default: 1000]", "pixels", "640x480"] {
@@ -234,18 +266,23 @@ fn help_gives_units_and_defaults() {
 #[test]
 fn wrong_arguments() {
     let folder = folder();
-    fail(&folder, &["--photons", "0"], &["--photons", "1..=4294967295"]);
-    fail(&folder, &["--photons", "10000000000000000000"], &["--photons", "1..=4294967295"]);
+    fail(&folder, &["--photons", "0"], &["--photons", "from 1 to 4294967295"]);
+    fail(&folder, &["--photons", "10000000000000000000"], &["--photons", "from 1 to 4294967295"]);
     fail(&folder, &["--photons", "many"], &["--photons", "many"]);
-    fail(&folder, &["--max-bounces", "1001"], &["--max-bounces", "0..=1000"]);
+    fail(&folder, &["--photons", "-1"], &["--photons", "-1", "from 1 to 4294967295"]);
+    fail(&folder, &["--seed", "-1"], &["--seed", "from 0 to 18446744073709551615"]);
+    fail(&folder, &["--max-bounces", "-1"], &["--max-bounces", "from 0 to 1000"]);
+    fail(&folder, &["--max-bounces", "1001"], &["--max-bounces", "from 0 to 1000"]);
     fail(&folder, &["--size", "0x480"], &["--size", "WIDTHxHEIGHT"]);
     fail(&folder, &["--size", "640"], &["--size", "WIDTHxHEIGHT"]);
     fail(&folder, &["--range", "5..5"], &["--range", "A < B"]);
     fail(&folder, &["--photons", "10", "--range", "5..11"], &["--range 5..11", "at most 10"]);
-    fail(&folder, &["--threads", "0"], &["--threads", "1..=1024"]);
+    fail(&folder, &["--threads", "0"], &["--threads", "from 1 to 1024"]);
     fail(&folder, &["--light", "0,0,1"], &["--scene"]);
     fail(&folder, &["--scene", "m.obj"], &["--light"]);
-    for light in ["0,0", "0,0,nan", "0,0,inf", "0,0,1e38", "0,0,1,0,0,0", "0,0,1,-1,1,1"] {
+    for light in
+        ["0,0", "0,0,nan", "0,0,inf", "0,0,1e38", "0,0,1,0,0,0", "0,0,1,-1,1,1", "0,0,1,1e-40,0,0"]
+    {
         fail(&folder, &["--scene", "m.obj", "--light", light], &["--light", "x,y,z"]);
     }
     fail(&folder, &["--photons-from", "a.csv", "--seed", "1"], &["--photons-from", "--seed"]);
@@ -260,7 +297,7 @@ fn wrong_models() {
     let good_material = "newmtl m\nKd 0.5 0.5 0.5\n";
     let corners = "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let cases: &[(&str, &str, &[&str])] = &[
-        ("", "", &["m.obj:0", "at least one face"]),
+        ("", "", &["m.obj:1", "at least one face"]),
         ("v 0 0\n", good_material, &["m.obj:1", "three numbers", "nothing more"]),
         ("v 0 x 0\n", good_material, &["m.obj:1", "'x'"]),
         ("v 0 nan 0\n", good_material, &["m.obj:1", "'nan'"]),
@@ -287,6 +324,10 @@ fn wrong_models() {
         fs::write(folder.path().join("m.mtl"), material).unwrap();
         fail(&folder, &["--scene", "m.obj", "--light", "0,0,1"], parts);
     }
+    let many: String = (0..65_537).map(|k| format!("o {k}\nf 1 2 3\n")).collect();
+    fs::write(folder.path().join("m.mtl"), good_material).unwrap();
+    fs::write(folder.path().join("m.obj"), format!("{corners}{many}")).unwrap();
+    fail(&folder, &["--scene", "m.obj", "--light", "0,0,1"], &["m.obj:131077", "65535 objects"]);
     fs::write(folder.path().join("m.obj"), b"# caf\xe9\n").unwrap();
     fail(&folder, &["--scene", "m.obj", "--light", "0,0,1"], &["m.obj:1", "UTF-8"]);
     fail(&folder, &["--scene", "none.obj", "--light", "0,0,1"], &["none.obj"]);
@@ -301,6 +342,7 @@ fn wrong_lists() {
         (b"x,y,z,x\n1,2,3,4\n", &["line 1", "'x' twice"]),
         (b"x,y,z\n1,2,3\n1,2\n", &["line 3", "expected 3 values, found 2"]),
         (b"x,y,z\n1,2,3,4\n", &["line 2", "expected 3 values, found 4"]),
+        (b"x,y,z\n1,banana,3\n", &["line 2", "'y'", "'banana'"]),
         (b"x,y,z\n1,two,3\n", &["line 2", "'y'", "'two'"]),
         (b"x,y,z,photon\n1,2,3,-4\n", &["line 2", "'photon'", "'-4'"]),
         (b"x,y,z\n1,\xff,3\n", &["line 2", "text"]),
@@ -323,6 +365,8 @@ fn wrong_lists() {
     let whole = fs::read(folder.path().join("whole/photons.ply")).unwrap();
     fs::write(folder.path().join("cut.ply"), &whole[..whole.len() - 1]).unwrap();
     fail(&folder, &["--photons-from", "cut.ply"], &["cut.ply", "truncated"]);
+    fs::write(folder.path().join("two.ply"), [&whole[..], &whole].concat()).unwrap();
+    fail(&folder, &["--photons-from", "two.ply"], &["two.ply", "found more"]);
 }
 
 #[test]

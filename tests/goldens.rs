@@ -13,7 +13,6 @@ use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::record::PhotonRecord;
 use photon_mapping::rendering::image_writer::take_picture;
-use photon_mapping::rendering::photon_map::PhotonMap;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use photon_mapping::rendering::reading::Reading;
 
@@ -86,7 +85,7 @@ fn hash_on_one_two_and_seven_threads() {
 #[test]
 fn picture_of_the_handout() {
     let mut renderer = handout(148, 1_000_000);
-    renderer.diffuse_map = PhotonMap::new(list(&renderer).iter().map(|record| record.position));
+    renderer.initialize_renderer();
     let (width, height) = (assignment8::WIDTH, assignment8::HEIGHT);
     let camera = assignment8::create_camera(width, height);
     let picture = take_picture(&renderer, &camera, width, height, || ());

@@ -34,9 +34,6 @@ pub enum CliError {
     /// An argument does not fit the others.
     #[error("{0}")]
     Argument(String),
-    /// Standard output was closed by its reader.
-    #[error("standard output was closed")]
-    ClosedPipe,
     /// Standard output could not be written.
     #[error("standard output cannot be written: {0}")]
     Output(io::Error),
@@ -54,7 +51,7 @@ impl CliError {
     }
 }
 
-/// Prints `text` to standard output.
+/// Prints `text` to standard output. That its reader has closed it is the reader's choice, no error.
 ///
 /// # Errors
 /// When standard output cannot be written.
@@ -62,8 +59,8 @@ pub fn print(text: &str) -> Result<(), CliError> {
     let mut output = io::stdout().lock();
     io::Write::write_all(&mut output, text.as_bytes())
         .and_then(|()| io::Write::flush(&mut output))
-        .map_err(|error| match error.kind() {
-            io::ErrorKind::BrokenPipe => CliError::ClosedPipe,
-            _ => CliError::Output(error),
+        .or_else(|error| match error.kind() {
+            io::ErrorKind::BrokenPipe => Ok(()),
+            _ => Err(CliError::Output(error)),
         })
 }

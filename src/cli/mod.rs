@@ -11,9 +11,9 @@ pub mod report;
 pub mod run_args;
 pub mod values;
 
-use clap::{Parser, Subcommand};
+use std::io::Write as _;
 
-use error::CliError;
+use clap::{Parser, Subcommand};
 
 /// The exit code of everything that could not be done.
 pub const FAILED: u8 = 2;
@@ -60,7 +60,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
             return 0;
         }
         Err(error) => {
-            eprintln!("{}", one_line(&error.to_string()));
+            complain(&one_line(&error.to_string()));
             return FAILED;
         }
     };
@@ -76,12 +76,16 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     };
     match result {
         Ok(code) => code,
-        Err(CliError::ClosedPipe) => 0,
         Err(error) => {
-            eprintln!("error: {}", one_line(&error.to_string()));
+            complain(&format!("error: {}", one_line(&error.to_string())));
             FAILED
         }
     }
+}
+
+/// Prints `line` to standard error; where that cannot be written, the exit code alone must do.
+fn complain(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// The first paragraph of `text` on one line.

@@ -44,7 +44,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "A..B", value_parser = values::range)]
     range: Option<Range<u64>>,
     /// How many threads to use; the list does not depend on it [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(1, 1024))]
     threads: Option<u16>,
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
@@ -197,6 +197,12 @@ fn photons(
     renderer: &PhotonMappingRenderer,
 ) -> Result<Range<u64>, CliError> {
     let emitted = renderer.emitted();
+    if emitted == 0 {
+        return Err(CliError::Argument(
+            "--photons: expected enough photons for every light to get one, none is emitted"
+                .to_owned(),
+        ));
+    }
     let photons = arguments.range.clone().unwrap_or(0..emitted);
     if photons.end > emitted {
         let Range { start, end } = photons;
@@ -222,6 +228,7 @@ fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Sum
     })?;
     progress.finish_and_clear();
     let emitted = photons.end - photons.start;
+    let seconds = Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let (surfaces, total) = judge(arguments, renderer, &photons, &tally);
     Ok(Summary {
         counts: Some(tally.counts()),
@@ -231,7 +238,7 @@ fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Sum
         emitted: Some(emitted),
         stored: tally.stored(),
         sha256: Some(hash.hex()),
-        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
+        seconds,
         surfaces,
         total: Some(total),
         files: Vec::new(),
@@ -272,6 +279,7 @@ fn trace(
     progress.finish_and_clear();
     renderer.diffuse_map = PhotonMap::new(positions);
     let emitted = photons.end - photons.start;
+    let seconds = Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let (surfaces, total) = judge(arguments, renderer, &photons, &tally);
     let summary = Summary {
         run: None,
@@ -281,7 +289,7 @@ fn trace(
         emitted: Some(emitted),
         stored: tally.stored(),
         sha256: Some(hash.hex()),
-        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
+        seconds,
         surfaces,
         total: Some(total),
         files: Vec::new(),

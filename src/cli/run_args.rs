@@ -48,14 +48,15 @@ impl SceneArgs {
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The key of all random numbers, a whole number below 2^64 [default: 148]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = values::whole(0, u64::MAX))]
     pub seed: Option<u64>,
     /// How many photons all lights send out together, up to 2^32 - 1 [default: 1000000]
     #[arg(long, value_name = "N",
-          value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
+          allow_negative_numbers = true, value_parser = values::whole(1, u64::from(u32::MAX)))]
     pub photons: Option<u64>,
     /// How often a photon may bounce at most, 0 to 1000 times [default: 1000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(i32).range(0..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(0, 1000))]
     pub max_bounces: Option<i32>,
     /// The scene.
     #[command(flatten)]

@@ -31,8 +31,11 @@ pub fn light(text: &str) -> Result<ModelLight, String> {
         .split(',')
         .map(|number| number.trim().parse().ok().filter(|number: &f64| number.abs() <= 1e9))
         .collect();
-    let is_color =
-        |color: &[f64]| color.iter().all(|c| *c >= 0.0) && color.iter().any(|c| *c > 0.0);
+    let is_color = |color: &[f64]| {
+        // Darker than this, the length of the colour is zero in f32.
+        let shines = |channel: &f64| *channel > 1e-18;
+        color.iter().all(|channel| *channel >= 0.0) && color.iter().any(shines)
+    };
     match numbers.as_deref() {
         Some([x, y, z]) => Ok(ModelLight { position: DVec3::new(*x, *y, *z), color: Vec3::ONE }),
         Some([x, y, z, color @ ..]) if color.len() == 3 && is_color(color) => Ok(ModelLight {
@@ -42,5 +45,18 @@ pub fn light(text: &str) -> Result<ModelLight, String> {
         _ => Err("expected x,y,z or x,y,z,r,g,b: finite numbers, the colour not negative and not \
                   black"
             .to_owned()),
+    }
+}
+
+/// A whole number from `low` to `high`.
+pub fn whole<T>(low: T, high: T) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync
+where
+    T: std::str::FromStr + PartialOrd + std::fmt::Display + Copy + Send + Sync,
+{
+    move |text: &str| {
+        text.parse()
+            .ok()
+            .filter(|number| (low..=high).contains(number))
+            .ok_or_else(|| format!("expected a whole number from {low} to {high}"))
     }
 }

@@ -87,6 +87,8 @@ impl Scalar {
 
 struct Header {
     binary: bool,
+    /// Whether nothing but the vertices follows.
+    only_vertices: bool,
     comments: Vec<String>,
     count: u64,
     properties: Vec<(Scalar, String)>,
@@ -152,6 +154,14 @@ pub(super) fn read(
         }
         on_record(record);
     }
+    let rest = input.fill_buf().map_err(|error| ListError::unreadable(path, error))?;
+    if header.only_vertices && header.binary && !rest.is_empty() {
+        let count = header.count;
+        let message = format!(
+            "expected the end of the file after {count} photons, found more ('merge' joins lists)"
+        );
+        return Err(ListError::malformed(path, message));
+    }
     Ok(columns)
 }
 
@@ -160,6 +170,7 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
     let mut binary = None;
     let mut count = None;
     let mut in_vertex = false;
+    let mut only_vertices = true;
     let mut properties = Vec::new();
     let mut comments = Vec::new();
     for number in 1..=MOST_HEADER_LINES {
@@ -190,6 +201,7 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
                     return Err(error("expected the vertices to be the first element"));
                 }
                 in_vertex = false;
+                only_vertices = false;
             }
             ["property", kind, name] if in_vertex => {
                 let scalar = Scalar::named(kind);
@@ -203,7 +215,7 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
                         "expected 'format' and 'element vertex' before 'end_header'",
                     ));
                 };
-                return Ok(Header { binary, comments, count, properties });
+                return Ok(Header { binary, only_vertices, comments, count, properties });
             }
             _ => return Err(error("expected a line of a PLY header of plain properties")),
         }

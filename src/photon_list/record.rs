@@ -92,8 +92,9 @@ impl Value<'_> {
             Self::Text(text) => text.parse().ok().or_else(|| {
                 // What C and C++ libraries print besides "nan".
                 let text = text.to_ascii_lowercase();
-                let is_nan =
-                    text.contains("nan") || text.contains("#ind") || text.contains("#qnan");
+                let unsigned = text.trim_start_matches(['+', '-']);
+                let spellings = ["nan(", "1.#ind", "1.#qnan", "1.#snan"];
+                let is_nan = spellings.iter().any(|spelling| unsigned.starts_with(spelling));
                 is_nan.then_some(f32::NAN)
             }),
             Self::Float(float) => Some(float),

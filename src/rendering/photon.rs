@@ -7,7 +7,7 @@ use crate::scene::ray::Ray;
 /// What is known of a photon where it was stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Photon {
-    /// The point hit, in world space.
+    /// The point hit, in the scene's space.
     pub position: Vec3,
     /// The light's colour divided by the number of photons it sent out. The roulette does not
     /// change it, as the handout has it: right for the dots, not for radiance.

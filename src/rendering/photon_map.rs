@@ -25,7 +25,7 @@ pub struct PhotonMap {
 const CELL: f32 = 0.0125;
 
 impl PhotonMap {
-    /// Sorts `positions`, in world space, into the grid.
+    /// Sorts `positions`, in the scene's space, into the grid.
     pub fn new(positions: impl IntoIterator<Item = Vec3>) -> Self {
         let unsorted: Vec<Vec3> = positions.into_iter().collect();
         let buckets = unsorted.len().next_power_of_two().max(2);

@@ -108,6 +108,7 @@ impl PhotonMappingRenderer {
         remaining_bounces: i32,
         rand: &mut impl FnMut() -> f32,
     ) {
+        // Photon Storage
         if remaining_bounces < 0 {
             return;
         }
@@ -116,7 +117,6 @@ impl PhotonMappingRenderer {
             return;
         }
 
-        // Photon Storage
         let intersection_point = state.intersection_ray.ray_position(state.intersection_t);
         if path.len() > 1 {
             photon_map.push(Photon {
@@ -144,6 +144,7 @@ impl PhotonMappingRenderer {
         // Hemisphere Ray Transformation
         let normal = state.compute_normal(&self.stored_scene);
         let tangent_to_world = tangent_frame(normal, &self.reading);
+        // The sample has length 1; t and b that have not, as in the letter of the handout, change it.
         let world_direction = (tangent_to_world * tangent_space_direction).normalize();
 
         // The handout names no offset. Without one, two in five scattered photons would hit the

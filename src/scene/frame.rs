@@ -6,6 +6,10 @@ use glam::{DVec3, Vec3};
 /// scene has 2.03, so it is traced as it stands.
 const LARGEST_EXTENT: f64 = 4.0;
 
+/// A light farther away than this many extents counts for the size: a point hit from afar is rounded
+/// as coarsely as its distance asks for.
+const FAR_LIGHT: f64 = 8.0;
+
 /// From world space to the space in which a scene is traced, and back: a shift, then a power of two.
 ///
 /// The framework's lengths, 1e-5 to start a ray and 0.003 for a dot, are right for a scene about the
@@ -23,11 +27,16 @@ impl Frame {
     /// The space of the scene is the world.
     pub const WORLD: Self = Self { origin: DVec3::ZERO, scale: 1.0 };
 
-    /// The frame for a scene of these points, in world space; all finite.
-    pub fn around(points: impl Iterator<Item = DVec3> + Clone) -> Self {
-        let low = points.clone().fold(DVec3::INFINITY, DVec3::min);
-        let high = points.fold(DVec3::NEG_INFINITY, DVec3::max);
-        let extent = (high - low).max_element();
+    /// The frame for a scene with these corners and lights, in world space; all finite.
+    pub fn around(
+        corners: impl Iterator<Item = DVec3> + Clone,
+        lights: impl Iterator<Item = DVec3> + Clone,
+    ) -> Self {
+        let low = corners.clone().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners.fold(DVec3::NEG_INFINITY, DVec3::max);
+        let middle = (low + high) / 2.0;
+        let distances = lights.map(|light| (light - middle).abs().max_element());
+        let extent = (high - low).max_element().max(distances.fold(0.0, f64::max) / FAR_LIGHT);
         if !(extent.is_finite() && extent > 0.0) {
             return Self::WORLD;
         }
@@ -40,7 +49,7 @@ impl Frame {
         }
         // In whole steps, so that a scene that is already about the origin stays where it is.
         let step = LARGEST_EXTENT / scale;
-        let origin = ((low + high) / 2.0 / step).round() * step;
+        let origin = (middle / step).round() * step;
         Self { origin, scale }
     }
 

@@ -30,7 +30,7 @@ impl IntersectionState {
         &scene.triangles()[self.intersected_primitive]
     }
 
-    /// The point met, in world space.
+    /// The point met, in the scene's space.
     pub fn intersection_point(&self) -> Vec3 {
         self.intersection_ray.ray_position(self.intersection_t)
     }

@@ -40,7 +40,7 @@ impl Scene {
     /// The scene of a model with `lights`, both in world space.
     pub fn from_model(model: obj::Model, lights: &[obj::ModelLight]) -> Self {
         let corners = model.triangles.iter().flat_map(|triangle| triangle.vertices);
-        let frame = Frame::around(corners.chain(lights.iter().map(|light| light.position)));
+        let frame = Frame::around(corners, lights.iter().map(|light| light.position));
         let place = |point: DVec3| frame.to_scene(point);
         let triangles = model.triangles.iter().map(|triangle| Triangle {
             vertices: triangle.vertices.map(place),

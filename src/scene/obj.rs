@@ -6,6 +6,7 @@
 //! file is wrong.
 
 use std::collections::HashMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use glam::{DVec3, Vec3};
@@ -15,6 +16,15 @@ use super::mesh_object::MeshObject;
 
 /// Numbers larger than this are refused: their products would not be finite.
 const LARGEST_COORDINATE: f64 = 1e9;
+
+/// A photon list numbers surfaces with 16 bits.
+const MOST_MESH_OBJECTS: usize = 65_535;
+
+/// What some editors put before the first line.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// No model or material library is larger, in bytes.
+const LARGEST_FILE: u64 = 1 << 31;
 
 /// What a model file holds, in world space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -97,7 +107,12 @@ pub fn parse(
 
 fn read(path: &Path) -> Result<String, ModelError> {
     let unreadable = |source| ModelError::Unreadable { path: path.to_owned(), source };
-    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    file.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 == LARGEST_FILE {
+        return Err(unreadable(std::io::Error::other("larger than 2 GiB")));
+    }
     String::from_utf8(bytes).map_err(|error| ModelError::Malformed {
         path: path.to_owned(),
         line: 1 + error.as_bytes()[..error.utf8_error().valid_up_to()]
@@ -135,7 +150,7 @@ struct Reader {
 impl Reader {
     fn new(path: &Path) -> Self {
         Self {
-            place: Place { path: path.to_owned(), line: 0 },
+            place: Place { path: path.to_owned(), line: 1 },
             vertices: Vec::new(),
             normals: Vec::new(),
             materials: HashMap::new(),
@@ -152,6 +167,7 @@ impl Reader {
         text: &str,
         read_library: impl Fn(&str) -> Result<(PathBuf, String), ModelError>,
     ) -> Result<Model, ModelError> {
+        let text = text.trim_start_matches(BYTE_ORDER_MARK);
         for (index, line) in text.lines().enumerate() {
             self.place.line = index + 1;
             let line = line.split('#').next().unwrap_or_default();
@@ -254,6 +270,10 @@ impl Reader {
             return Ok(*mesh);
         }
         let mesh = self.model.mesh_objects.len();
+        if mesh > MOST_MESH_OBJECTS {
+            let message = format!("expected at most {MOST_MESH_OBJECTS} objects with a material");
+            return Err(self.place.error(message));
+        }
         let name_is_taken = self.model.mesh_objects.iter().any(|mesh| mesh.name == key.0);
         let name = if name_is_taken { format!("{}:{}", key.0, key.1) } else { key.0.clone() };
         self.mesh_of.insert(key, mesh);
@@ -277,7 +297,7 @@ fn read_materials(
                 .error(format!("expected a diffuse response ('Kd') for material '{name}'"))
         })
     };
-    for (index, line) in text.lines().enumerate() {
+    for (index, line) in text.trim_start_matches(BYTE_ORDER_MARK).lines().enumerate() {
         place.line = index + 1;
         let (keyword, rest) = split_keyword(line.split('#').next().unwrap_or_default());
         match keyword {
@@ -323,9 +343,10 @@ fn numbers(
         let word = words.next().unwrap_or_default();
         let expected = || {
             let (low, high) = (range.start(), range.end());
-            let found = if word.is_empty() { "nothing more" } else { word };
+            let found =
+                if word.is_empty() { "nothing more".to_owned() } else { format!("'{word}'") };
             place.error(format!(
-                "expected three numbers from {low} to {high} after '{keyword}', found '{found}'"
+                "expected three numbers from {low} to {high} after '{keyword}', found {found}"
             ))
         };
         let number: f64 = word.parse().map_err(|_| expected())?;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// A half line in world space, or the part of it before `max_t`.
+/// A half line in the scene's space, or the part of it before `max_t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     position: Vec3,

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::ray::Ray;
 
-/// One triangle of a mesh, in world space.
+/// One triangle of a mesh, in the scene's space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     /// The corners.

@@ -7,7 +7,7 @@ use crate::scene::ray::Ray;
 /// A point light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
-    /// Where it stands, in world space: C++ `SceneObject::GetPosition()`.
+    /// Where it stands, in the scene's space: C++ `SceneObject::GetPosition()`.
     pub position: Vec3,
     /// Its colour; the photons it sends out share it evenly: C++ `Light::GetLightColor()`.
     pub color: Vec3,
