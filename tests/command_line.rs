@@ -327,7 +327,7 @@ fn wrong_models() {
     let many: String = (0..65_537).map(|k| format!("o {k}\nf 1 2 3\n")).collect();
     fs::write(folder.path().join("m.mtl"), good_material).unwrap();
     fs::write(folder.path().join("m.obj"), format!("{corners}{many}")).unwrap();
-    fail(&folder, &["--scene", "m.obj", "--light", "0,0,1"], &["m.obj:131077", "65535 objects"]);
+    fail(&folder, &["--scene", "m.obj", "--light", "0,0,1"], &["m.obj:131079", "65535 objects"]);
     fs::write(folder.path().join("m.obj"), b"# caf\xe9\n").unwrap();
     fail(&folder, &["--scene", "m.obj", "--light", "0,0,1"], &["m.obj:1", "UTF-8"]);
     fail(&folder, &["--scene", "none.obj", "--light", "0,0,1"], &["none.obj"]);

@@ -37,7 +37,8 @@ fn everything_named_exists() {
             continue;
         }
         let is_test = path.starts_with("tests/");
-        let keywords: &[&str] = if is_test { &["fn "] } else { &["fn ", "struct ", "pub "] };
+        let keywords: &[&str] =
+            if is_test { &["fn "] } else { &["fn ", "struct ", "enum ", "pub "] };
         let defined = keywords.iter().any(|keyword| {
             code.match_indices(&format!("{keyword}{item}")).any(|(start, found)| {
                 !code[start + found.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '_')

@@ -44,7 +44,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "A..B", value_parser = values::range)]
     range: Option<Range<u64>>,
     /// How many threads to use; the list does not depend on it [default: one for each core]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(1, 1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(1_u16, 1024))]
     threads: Option<u16>,
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]

@@ -95,7 +95,7 @@ fn cell(position: Vec3) -> [i64; 3] {
         // `floor` is a call into a library on processors that need not have an instruction for it.
         let cells = coordinate / CELL;
         let towards_zero = cells as i64;
-        towards_zero - i64::from(cells < towards_zero as f32)
+        towards_zero.saturating_sub(i64::from(cells < towards_zero as f32))
     })
 }
 
