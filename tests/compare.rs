@@ -266,3 +266,67 @@ fn bad_input_is_refused_in_one_line() {
     fails("compare {} {} --tolerance 2", &[&csv, &csv], &["--tolerance", "from 0 to 1"]);
     fails("compare {} {} {}", &[&csv, &csv, &csv], &["photons.csv"]);
 }
+
+/// The handout's box, `scale` times as large, beside its list of 20,000 photons.
+fn scaled_box(folder: &Path, scale: f64) -> (PathBuf, String, PathBuf) {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/assignment8/cornell_box.obj");
+    let text = fs::read_to_string(model).expect("the model can be read");
+    let scaled = |line: &str| match line.strip_prefix("v ") {
+        Some(rest) => rest.split_whitespace().fold("v".to_owned(), |line, number| {
+            let number: f64 = number.parse().expect("a number");
+            format!("{line} {}", number * scale)
+        }),
+        None => line.to_owned(),
+    };
+    let lines: Vec<_> = text.lines().map(scaled).collect();
+    let model = folder.join("scaled.obj");
+    fs::write(&model, lines.join("\n") + "\n").expect("the model can be written");
+    let materials = "cornell_box.mtl";
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/assignment8");
+    fs::copy(source.join(materials), folder.join(materials)).expect("the materials can be copied");
+    let light = format!("0,0,{}", 1.5 * scale);
+    let line = "render --format csv --quiet --size 1x1 --photons 20000 --scene {} --light {} \
+                --out {}";
+    run_line(line, &[&model, Path::new(&light), folder]).success();
+    (model, light, folder.join("photons.csv"))
+}
+
+#[test]
+fn the_tolerance_grows_with_the_scene() {
+    let line = "compare --json --photons 20000 --scene {} --light {} {}";
+    let small = folder();
+    let (model, light, csv) = scaled_box(small.path(), 1e-4);
+    let zeros = changed(&csv, "zeros.csv", |lines| {
+        positions_only(lines);
+        lines[1..].iter_mut().for_each(|line| *line = "0,0,0".to_owned());
+    });
+    let report = json(run_line(line, &[&model, Path::new(&light), &zeros]).code(1));
+    assert_eq!(count(&report, "matched"), 0);
+
+    let large = folder();
+    let (model, light, csv) = scaled_box(large.path(), 1e4);
+    let moved = changed(&csv, "moved.csv", |lines| {
+        for line in &mut lines[1..] {
+            let x: f32 = line.split(',').next().expect("x").parse().expect("a number");
+            *line = with_cell(line, 0, &(x + 0.05).to_string());
+        }
+    });
+    let report = json(run_line(line, &[&model, Path::new(&light), &moved]).code(0));
+    assert_eq!(report["outcome"], "within-tolerance");
+}
+
+#[test]
+fn of_a_hit_straight_from_the_light_the_truth_is_told() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let direct = changed(&csv, "direct.csv", |lines| {
+        let record = with_cell(&lines[1], 10, "0");
+        lines.insert(1, with_cell(&record, 0, "0.5"));
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&direct]).code(1));
+    let divergence = &report["first_divergence"];
+    assert_eq!(divergence["bounce"], 0);
+    let text = divergence["reference"].as_str().expect("text");
+    assert!(text.starts_with("does not store the hit straight from the light"), "{text}");
+    assert!(text.contains("scatters there") && text.contains("< P_r"), "{text}");
+}

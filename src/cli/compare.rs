@@ -28,17 +28,20 @@ const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 #[derive(Debug, Args)]
 #[command(
     after_help = "Exit codes: 0 the same, bit for bit or within the tolerance; 1 different; \
-                        2 could not be read."
+                  2 could not be read.\n\
+                  Pictures count as the same when no channel of any pixel is further off than one \
+                  step of 255, and every pixel has or lacks its dot in both."
 )]
 pub struct CompareArgs {
     /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
     /// with --seed or --photons a list alone, and the reference is traced on the spot
     #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
-    /// How far apart two positions may be that count as one, as a part of the scene's longest edge
+    /// For lists: how far apart two positions may be that count as one, as a part of the scene's
+    /// longest edge
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
     tolerance: f32,
-    /// Which part of the records may differ before the lists do
+    /// For lists: which part of the records may differ before the lists do
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     allow: f32,
     /// For pictures: where to write the difference picture
@@ -118,7 +121,9 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
         }
     };
     let submission = reader::load(submission)?;
-    let tolerance = arguments.tolerance * scene_size(&renderer.stored_scene);
+    let scene = &renderer.stored_scene;
+    // Lists have world positions, and a scene need not be traced at its own size.
+    let tolerance = arguments.tolerance * scene.frame().length_to_world(scene_size(scene));
     let report = compare(&reference, &submission, Some(&renderer), tolerance, arguments.allow);
     finish(arguments, &report, &report.text(), report.outcome)
 }

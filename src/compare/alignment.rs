@@ -28,7 +28,7 @@ pub enum Pairing {
 /// bounce where both tell it (see [`with_bounces`]); unless more records of that photon come to lie
 /// upon each other when paired by order, as they do when a submission counts from another bounce.
 /// All other lists are paired by order: the longest sequence of records, in the order of both
-/// lists, that lie within `tolerance` scene units of each other, stays together, and what lies
+/// lists, that lie within `tolerance` world units of each other, stays together, and what lies
 /// between is paired one by one. So a missing or extra record puts nothing out of step. Time grows
 /// as n log n.
 pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Vec<Pairing> {

@@ -48,7 +48,7 @@ pub struct Report {
     pub submission_records: u64,
     /// The hash of both lists if they are identical and have all columns.
     pub sha256: Option<String>,
-    /// How far apart two positions may be that count as one, in scene units.
+    /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
     /// In what the lists differ.
     #[serde(flatten)]
@@ -74,7 +74,7 @@ pub fn scene_size(scene: &Scene) -> f32 {
     (high - low).max_element()
 }
 
-/// Compares two lists; positions are the same within `tolerance` scene units, and the part
+/// Compares two lists; positions are the same within `tolerance` world units, and the part
 /// `allowed` of all records, from 0 to 1, may differ before the lists do. `renderer` is the run of
 /// which `reference` is said to be the list; where they part is explained from it if it is.
 pub fn compare(
