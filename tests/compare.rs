@@ -330,3 +330,79 @@ fn of_a_hit_straight_from_the_light_the_truth_is_told() {
     assert!(text.starts_with("does not store the hit straight from the light"), "{text}");
     assert!(text.contains("scatters there") && text.contains("< P_r"), "{text}");
 }
+
+#[test]
+fn a_doubled_list_is_stored_twice() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let doubled = changed(&csv, "doubled.csv", |lines| {
+        let records = lines[1..].to_vec();
+        lines.extend(records);
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&doubled]).code(1));
+    assert_eq!(report["first_divergence"]["section"], "Photon Storage");
+    assert_eq!(report["first_divergence"]["reason"], "the photon is stored twice");
+    assert!(report["reading"].is_null(), "{report}");
+}
+
+#[test]
+fn another_limit_or_count_is_called_so() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let limited = changed(&csv, "limited.csv", |lines| {
+        lines.retain(|line| {
+            !line.split(',').nth(10).expect("a bounce").parse().is_ok_and(|b: u32| b > 1)
+        });
+    });
+    let divergence = &json(run_line("compare --json --photons 20000 {}", &[&limited]).code(1))["first_divergence"];
+    assert_eq!(divergence["section"], "Photon Storage");
+    assert!(divergence["reason"].as_str().expect("text").contains("after 1 bounces"));
+    let line = "compare --json --photons 40000 {}";
+    let divergence = &json(run_line(line, &[&csv]).code(1))["first_divergence"];
+    assert_eq!(divergence["section"], "Photon Emission");
+    assert!(divergence["reason"].as_str().expect("text").contains("about 20,000 photons"));
+}
+
+#[test]
+fn the_order_of_records_without_numbers_means_nothing() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let reversed = changed(&csv, "reversed.csv", |lines| {
+        positions_only(lines);
+        lines[1..].reverse();
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&reversed]).code(0));
+    assert_eq!(report["outcome"], "within-tolerance");
+    assert_eq!(report["note"], "the same photons in another order");
+    let fewer = changed(&reversed, "fewer.csv", |lines| {
+        lines.remove(9);
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&fewer]).code(1));
+    assert_eq!(counts(&report)[1..], [1, 0, 0]);
+}
+
+#[test]
+fn hardly_a_match_is_never_certain() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let report = json(run_line("compare --json --seed 149 --photons 20000 {}", &[&csv]).code(1));
+    assert_eq!(report["first_divergence"]["certain"], false);
+    assert!(report["note"].as_str().expect("a note").contains("another generator, seed"));
+}
+
+#[test]
+fn the_header_names_the_reading() {
+    let folder = folder();
+    let line = "render --quiet --size 1x1 --photons 20000 --letter-of-the-handout --out {}";
+    run_line(line, &[folder.path()]).success();
+    let ply = folder.path().join("photons.ply");
+    let csv = folder.path().join("csv");
+    let other = reference_csv_in(&csv);
+    let report = json(run_line("compare --json {} {}", &[&ply, &other]).code(1));
+    assert_eq!(report["reading"], "t and b normalised");
+}
+
+fn reference_csv_in(folder: &Path) -> PathBuf {
+    fs::create_dir_all(folder).expect("a folder");
+    reference_csv(folder, 20_000)
+}
