@@ -406,3 +406,20 @@ fn reference_csv_in(folder: &Path) -> PathBuf {
     fs::create_dir_all(folder).expect("a folder");
     reference_csv(folder, 20_000)
 }
+
+#[test]
+fn the_header_names_the_range_and_the_scene() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let part = folder.path().join("part");
+    let line = "render --quiet --size 1x1 --photons 20000 --range 5000..9000 --out {}";
+    run_line(line, &[&part]).success();
+    let ply = part.join("photons.ply");
+    let report = json(run_line("compare --json {} {}", &[&ply, &csv]).code(0));
+    assert!(report["note"].as_str().expect("a note").contains("only the photons 5000..9000"));
+
+    let (model, light, _) = scaled_box(folder.path(), 2.0);
+    let line = "compare --json --scene {} --light {} {} {}";
+    let report = json(run_line(line, &[&model, Path::new(&light), &ply, &csv]));
+    assert!(report["note"].as_str().expect("a note").contains("another scene"), "{report}");
+}
