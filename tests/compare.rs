@@ -266,3 +266,160 @@ fn bad_input_is_refused_in_one_line() {
     fails("compare {} {} --tolerance 2", &[&csv, &csv], &["--tolerance", "from 0 to 1"]);
     fails("compare {} {} {}", &[&csv, &csv, &csv], &["photons.csv"]);
 }
+
+/// The handout's box, `scale` times as large, beside its list of 20,000 photons.
+fn scaled_box(folder: &Path, scale: f64) -> (PathBuf, String, PathBuf) {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/assignment8/cornell_box.obj");
+    let text = fs::read_to_string(model).expect("the model can be read");
+    let scaled = |line: &str| match line.strip_prefix("v ") {
+        Some(rest) => rest.split_whitespace().fold("v".to_owned(), |line, number| {
+            let number: f64 = number.parse().expect("a number");
+            format!("{line} {}", number * scale)
+        }),
+        None => line.to_owned(),
+    };
+    let lines: Vec<_> = text.lines().map(scaled).collect();
+    let model = folder.join("scaled.obj");
+    fs::write(&model, lines.join("\n") + "\n").expect("the model can be written");
+    let materials = "cornell_box.mtl";
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/assignment8");
+    fs::copy(source.join(materials), folder.join(materials)).expect("the materials can be copied");
+    let light = format!("0,0,{}", 1.5 * scale);
+    let line = "render --format csv --quiet --size 1x1 --photons 20000 --scene {} --light {} \
+                --out {}";
+    run_line(line, &[&model, Path::new(&light), folder]).success();
+    (model, light, folder.join("photons.csv"))
+}
+
+#[test]
+fn the_tolerance_grows_with_the_scene() {
+    let line = "compare --json --photons 20000 --scene {} --light {} {}";
+    let small = folder();
+    let (model, light, csv) = scaled_box(small.path(), 1e-4);
+    let zeros = changed(&csv, "zeros.csv", |lines| {
+        positions_only(lines);
+        lines[1..].iter_mut().for_each(|line| *line = "0,0,0".to_owned());
+    });
+    let report = json(run_line(line, &[&model, Path::new(&light), &zeros]).code(1));
+    assert_eq!(count(&report, "matched"), 0);
+
+    let large = folder();
+    let (model, light, csv) = scaled_box(large.path(), 1e4);
+    let moved = changed(&csv, "moved.csv", |lines| {
+        for line in &mut lines[1..] {
+            let x: f32 = line.split(',').next().expect("x").parse().expect("a number");
+            *line = with_cell(line, 0, &(x + 0.05).to_string());
+        }
+    });
+    let report = json(run_line(line, &[&model, Path::new(&light), &moved]).code(0));
+    assert_eq!(report["outcome"], "within-tolerance");
+}
+
+#[test]
+fn of_a_hit_straight_from_the_light_the_truth_is_told() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let direct = changed(&csv, "direct.csv", |lines| {
+        let record = with_cell(&lines[1], 10, "0");
+        lines.insert(1, with_cell(&record, 0, "0.5"));
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&direct]).code(1));
+    let divergence = &report["first_divergence"];
+    assert_eq!(divergence["bounce"], 0);
+    let text = divergence["reference"].as_str().expect("text");
+    assert!(text.starts_with("does not store the hit straight from the light"), "{text}");
+    assert!(text.contains("scatters there") && text.contains("< P_r"), "{text}");
+}
+
+#[test]
+fn a_doubled_list_is_stored_twice() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let doubled = changed(&csv, "doubled.csv", |lines| {
+        let records = lines[1..].to_vec();
+        lines.extend(records);
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&doubled]).code(1));
+    assert_eq!(report["first_divergence"]["section"], "Photon Storage");
+    assert_eq!(report["first_divergence"]["reason"], "the photon is stored twice");
+    assert!(report["reading"].is_null(), "{report}");
+}
+
+#[test]
+fn another_limit_or_count_is_called_so() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let limited = changed(&csv, "limited.csv", |lines| {
+        lines.retain(|line| {
+            !line.split(',').nth(10).expect("a bounce").parse().is_ok_and(|b: u32| b > 1)
+        });
+    });
+    let divergence = &json(run_line("compare --json --photons 20000 {}", &[&limited]).code(1))["first_divergence"];
+    assert_eq!(divergence["section"], "Photon Storage");
+    assert!(divergence["reason"].as_str().expect("text").contains("after 1 bounces"));
+    let line = "compare --json --photons 40000 {}";
+    let divergence = &json(run_line(line, &[&csv]).code(1))["first_divergence"];
+    assert_eq!(divergence["section"], "Photon Emission");
+    assert!(divergence["reason"].as_str().expect("text").contains("about 20,000 photons"));
+}
+
+#[test]
+fn the_order_of_records_without_numbers_means_nothing() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let reversed = changed(&csv, "reversed.csv", |lines| {
+        positions_only(lines);
+        lines[1..].reverse();
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&reversed]).code(0));
+    assert_eq!(report["outcome"], "within-tolerance");
+    assert_eq!(report["note"], "the same photons in another order");
+    let fewer = changed(&reversed, "fewer.csv", |lines| {
+        lines.remove(9);
+    });
+    let report = json(run_line("compare --json --photons 20000 {}", &[&fewer]).code(1));
+    assert_eq!(counts(&report)[1..], [1, 0, 0]);
+}
+
+#[test]
+fn hardly_a_match_is_never_certain() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let report = json(run_line("compare --json --seed 149 --photons 20000 {}", &[&csv]).code(1));
+    assert_eq!(report["first_divergence"]["certain"], false);
+    assert!(report["note"].as_str().expect("a note").contains("another generator, seed"));
+}
+
+#[test]
+fn the_header_names_the_reading() {
+    let folder = folder();
+    let line = "render --quiet --size 1x1 --photons 20000 --letter-of-the-handout --out {}";
+    run_line(line, &[folder.path()]).success();
+    let ply = folder.path().join("photons.ply");
+    let csv = folder.path().join("csv");
+    let other = reference_csv_in(&csv);
+    let report = json(run_line("compare --json {} {}", &[&ply, &other]).code(1));
+    assert_eq!(report["reading"], "t and b normalised");
+}
+
+fn reference_csv_in(folder: &Path) -> PathBuf {
+    fs::create_dir_all(folder).expect("a folder");
+    reference_csv(folder, 20_000)
+}
+
+#[test]
+fn the_header_names_the_range_and_the_scene() {
+    let folder = folder();
+    let csv = reference_csv(folder.path(), 20_000);
+    let part = folder.path().join("part");
+    let line = "render --quiet --size 1x1 --photons 20000 --range 5000..9000 --out {}";
+    run_line(line, &[&part]).success();
+    let ply = part.join("photons.ply");
+    let report = json(run_line("compare --json {} {}", &[&ply, &csv]).code(0));
+    assert!(report["note"].as_str().expect("a note").contains("only the photons 5000..9000"));
+
+    let (model, light, _) = scaled_box(folder.path(), 2.0);
+    let line = "compare --json --scene {} --light {} {} {}";
+    let report = json(run_line(line, &[&model, Path::new(&light), &ply, &csv]));
+    assert!(report["note"].as_str().expect("a note").contains("another scene"), "{report}");
+}

@@ -9,8 +9,9 @@
 //
 //   photon_dump::PhotonDump recorder;
 //   recorder.begin_photon(i);             // before photon i, counted from 0 over all lights
-//   recorder.store(photon);               // wherever the photon map receives one; or store(photon,
-//   3) recorder.write("submission.csv");
+//   recorder.store(photon);               // wherever the photon map receives one
+//   recorder.store(photon, 3);            // or so, where the object that was hit is known
+//   recorder.write("submission.csv");
 //
 // A photon is any type with the members `position` and `intensity` (vectors with .x .y .z or [0]
 // [1] [2]) and `toLightRay` (such a vector, or a ray with GetRayDirection()).

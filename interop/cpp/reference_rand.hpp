@@ -1,8 +1,8 @@
 // The reference's random numbers behind rand(): with them, a C++ photon mapper that draws in the
 // reference's order traces the reference's photons, and its list can be compared record by record.
 //
-//   #define REFERENCE_RAND_REPLACES_RAND   // optional: rand() and std::rand() below this line mean
-//   the reference's #include "reference_rand.hpp"          // the last include of the file
+//   #define REFERENCE_RAND_REPLACES_RAND   // optional: rand() and std::rand() below are these
+//   #include "reference_rand.hpp"          // the last include of the file
 //
 //   reference_rand::begin_photon(seed, i); // before photon i, counted from 0 over all lights
 //   float u = (float)rand() / RAND_MAX;    // the reference's number, to the last bit, and never 1

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Read};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -18,6 +19,7 @@ use crate::photon_list::record::{Columns, PhotonRecord};
 use crate::photon_list::run::Run;
 use crate::photon_list::trace::trace_list;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::reading::Reading;
 
 /// The exit code when the lists or pictures differ.
 const DIFFERENT: u8 = 1;
@@ -28,17 +30,20 @@ const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 #[derive(Debug, Args)]
 #[command(
     after_help = "Exit codes: 0 the same, bit for bit or within the tolerance; 1 different; \
-                        2 could not be read."
+                  2 could not be read.\n\
+                  Pictures count as the same when no channel of any pixel is further off than one \
+                  step of 255, and every pixel has or lacks its dot in both."
 )]
 pub struct CompareArgs {
     /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
     /// with --seed or --photons a list alone, and the reference is traced on the spot
     #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
-    /// How far apart two positions may be that count as one, as a part of the scene's longest edge
+    /// For lists: how far apart two positions may be that count as one, as a part of the scene's
+    /// longest edge
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
     tolerance: f32,
-    /// Which part of the records may differ before the lists do
+    /// For lists: which part of the records may differ before the lists do
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     allow: f32,
     /// For pictures: where to write the difference picture
@@ -97,9 +102,10 @@ fn is_picture(path: &Path) -> Result<bool, CliError> {
 
 fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     let mut renderer = arguments.run.renderer()?;
+    let mut named = None;
     let (reference, submission) = match arguments.files.as_slice() {
         [reference, submission] => {
-            name_run(arguments, reference, &mut renderer);
+            named = name_run(arguments, reference, &mut renderer);
             (reader::load(reference)?, submission)
         }
         [submission, ..] if arguments.run.seed.is_some() || arguments.run.photons.is_some() => {
@@ -117,20 +123,45 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
             ));
         }
     };
-    let submission = reader::load(submission)?;
-    let tolerance = arguments.tolerance * scene_size(&renderer.stored_scene);
-    let report = compare(&reference, &submission, Some(&renderer), tolerance, arguments.allow);
+    let mut submission = reader::load(submission)?;
+    let mut notes = Vec::new();
+    if let Some(run) = &named {
+        if run.scene != Run::new(&renderer, 0..0).scene {
+            notes.push("the reference is the list of another scene, light or reading".to_owned());
+        }
+        if submission.columns.photon && run.range != (0..run.emitted) {
+            let before = submission.records.len();
+            submission.records.retain(|record| run.range.contains(&u64::from(record.photon)));
+            let outside = before - submission.records.len();
+            if outside > 0 {
+                let Range { start, end } = run.range;
+                notes.push(format!(
+                    "the reference has only the photons {start}..{end}; {outside} records of the \
+                     submission lie outside and are not compared"
+                ));
+            }
+        }
+    }
+    let scene = &renderer.stored_scene;
+    // Lists have world positions, and a scene need not be traced at its own size.
+    let tolerance = arguments.tolerance * scene.frame().length_to_world(scene_size(scene));
+    let mut report = compare(&reference, &submission, Some(&renderer), tolerance, arguments.allow);
+    notes.iter().for_each(|note| report.add_note(note));
     finish(arguments, &report, &report.text(), report.outcome)
 }
 
-/// Sets what the arguments leave open to what the list `reference` says of its run.
-fn name_run(arguments: &CompareArgs, reference: &Path, renderer: &mut PhotonMappingRenderer) {
+/// Sets what the arguments leave open to what the list `reference` says of its run, and gives that.
+fn name_run(
+    arguments: &CompareArgs,
+    reference: &Path,
+    renderer: &mut PhotonMappingRenderer,
+) -> Option<Run> {
     // What a pipe has given once it does not give again.
     if !reference.is_file() {
-        return;
+        return None;
     }
     let comments = ply::comments(reference).unwrap_or_default();
-    let Some(run) = Run::from_comments(&comments) else { return };
+    let run = Run::from_comments(&comments)?;
     if arguments.run.seed.is_none() {
         renderer.seed = run.seed;
     }
@@ -140,6 +171,14 @@ fn name_run(arguments: &CompareArgs, reference: &Path, renderer: &mut PhotonMapp
     if arguments.run.max_bounces.is_none() {
         renderer.max_photon_bounces = run.max_bounces;
     }
+    let reading = renderer.reading;
+    if run.scene != Run::new(renderer, 0..0).scene {
+        renderer.reading = Reading::LETTER_OF_THE_HANDOUT;
+        if run.scene != Run::new(renderer, 0..0).scene {
+            renderer.reading = reading;
+        }
+    }
+    Some(run)
 }
 
 fn trace(renderer: &PhotonMappingRenderer) -> PhotonList {

@@ -28,14 +28,16 @@ pub enum Pairing {
 /// bounce where both tell it (see [`with_bounces`]); unless more records of that photon come to lie
 /// upon each other when paired by order, as they do when a submission counts from another bounce.
 /// All other lists are paired by order: the longest sequence of records, in the order of both
-/// lists, that lie within `tolerance` scene units of each other, stays together, and what lies
-/// between is paired one by one. So a missing or extra record puts nothing out of step. Time grows
+/// lists, that lie within `tolerance` world units of each other, stays together, and what lies
+/// between is paired one by one; unless far more records match when their order is passed over, as
+/// in a list that comes out of a tree. So a missing or extra record puts nothing out of step. Time grows
 /// as n log n.
 pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Vec<Pairing> {
     let lists = Lists { reference, submission, tolerance };
     if !(reference.columns.photon && submission.columns.photon) {
         let all = |list: &PhotonList| (0..list.records.len()).collect::<Vec<_>>();
-        return lists.by_order(&all(reference), &all(submission));
+        let by_order = lists.by_order(&all(reference), &all(submission));
+        return lists.by_place(&by_order).unwrap_or(by_order);
     }
     let (reference_order, submission_order) = (sorted(reference), sorted(submission));
     let mut pairings = Vec::new();
@@ -136,6 +138,38 @@ impl Lists<'_> {
             }
         }
         pairings
+    }
+
+    /// Pairs records whatever their order is, each with one that lies near it; `None` when that is
+    /// no clear gain over `by_order`.
+    fn by_place(&self, by_order: &[Pairing]) -> Option<Vec<Pairing>> {
+        let (reference, submission) = (&self.reference.records, &self.submission.records);
+        let in_order = self.near_pairs(by_order);
+        let most = reference.len().min(submission.len());
+        if in_order == most {
+            return None;
+        }
+        let positions: Vec<_> = reference.iter().map(|record| record.position).collect();
+        let index = PositionIndex::new(&positions, self.tolerance);
+        let mut partners = vec![None; reference.len()];
+        let mut extra = Vec::new();
+        for (j, record) in submission.iter().enumerate() {
+            let near = index.near(record.position, j);
+            match near.into_iter().find(|i| partners[*i].is_none()) {
+                Some(i) => partners[i] = Some(j),
+                None => extra.push(Pairing::Extra(j)),
+            }
+        }
+        let found = submission.len() - extra.len();
+        let is_all = found == reference.len() && found == submission.len();
+        if !is_all && (2 * found < most || 4 * in_order > 3 * found) {
+            return None;
+        }
+        let of_reference = partners.into_iter().enumerate().map(|(i, partner)| match partner {
+            Some(j) => Pairing::Both(i, j),
+            None => Pairing::Missing(i),
+        });
+        Some(of_reference.chain(extra).collect())
     }
 
     fn near_pairs(&self, pairings: &[Pairing]) -> usize {

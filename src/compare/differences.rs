@@ -36,7 +36,7 @@ pub struct Differences {
     pub extra: u64,
     /// Records that both lists have, in different places.
     pub moved: u64,
-    /// The largest distance between two such places, in scene units.
+    /// The largest distance between two such places, in world units.
     pub moved_largest: Option<f32>,
     /// The median of these distances.
     pub moved_median: Option<f32>,
@@ -57,7 +57,7 @@ impl Differences {
 }
 
 /// Counts the differences between the records paired by `pairings`; positions are the same within
-/// `tolerance` scene units. Columns that a list does not have are not compared. Also gives the
+/// `tolerance` world units. Columns that a list does not have are not compared. Also gives the
 /// pairings that differ, in order.
 pub fn count(
     reference: &PhotonList,

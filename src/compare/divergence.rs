@@ -8,7 +8,7 @@ use super::alignment::Pairing;
 use super::differences::Difference;
 use super::numbers::thousands;
 use super::verdict::{Observation, Section, Verdict, judge};
-use crate::explain::{Ending, Story, explain, vector};
+use crate::explain::{Ending, Hit, Story, explain, vector};
 use crate::photon_list::reader::PhotonList;
 use crate::photon_list::record::PhotonRecord;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
@@ -48,7 +48,7 @@ pub struct Lists<'lists> {
     pub submission: &'lists PhotonList,
     /// How the records of both belong together.
     pub pairings: &'lists [Pairing],
-    /// How far apart two positions may be that count as one, in scene units.
+    /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
 }
 
@@ -279,7 +279,10 @@ fn reference_does(story: &Story, bounce: usize) -> String {
     let Some(last) = story.hits.last() else {
         return "leaves the light without hitting anything".to_owned();
     };
-    let Some(before) = story.hits.get(bounce.max(1) - 1) else {
+    let Some(before) = bounce.checked_sub(1) else {
+        return at_first_hit(&story.hits[0]);
+    };
+    let Some(before) = story.hits.get(before) else {
         return format!("has ended at bounce {} on {}", last.bounce, last.surface);
     };
     let Some(hit) = story.hits.get(bounce) else {
@@ -305,5 +308,16 @@ fn reference_does(story: &Story, bounce: usize) -> String {
         before.survival,
         hit.surface,
         vector(&hit.position)
+    )
+}
+
+/// What the reference's photon does at `hit`, which comes straight from the light: of this hit
+/// speaks bounce 0 of a submission that stores it, or counts from 0.
+fn at_first_hit(hit: &Hit) -> String {
+    let (decision, sign) = if hit.scattered { ("scatters", "<") } else { ("is absorbed", ">=") };
+    format!(
+        "does not store the hit straight from the light on {}, and {decision} there ({} {sign} P_r \
+         {})",
+        hit.surface, hit.roulette, hit.survival
     )
 }

@@ -7,8 +7,8 @@ use glam::Vec3;
 /// More records than these in one cell are not all looked at: lists whose records all lie in one
 /// point would take quadratic time.
 const MOST_PER_CELL: usize = 16;
-/// The edge of a cell when lists are compared without any tolerance, in scene units.
-const SMALLEST_CELL: f32 = 1e-6;
+/// The edge of a cell when lists are compared without any tolerance, in world units.
+const CELL_WITHOUT_TOLERANCE: f32 = 1e-6;
 
 /// Whether two positions are the same within `tolerance`. What is not a number is like whatever is
 /// not a number either: those who look for the first real difference want to look past it.
@@ -26,7 +26,7 @@ pub struct PositionIndex<'list> {
 
 impl<'list> PositionIndex<'list> {
     /// Sorts `positions` (world space) into the grid, for questions about points within
-    /// `tolerance` scene units.
+    /// `tolerance` world units.
     pub fn new(positions: &'list [Vec3], tolerance: f32) -> Self {
         let mut index = Self { positions, tolerance, cells: HashMap::new() };
         for (place, position) in positions.iter().enumerate() {
@@ -62,7 +62,7 @@ impl<'list> PositionIndex<'list> {
     }
 
     fn cell(&self, position: Vec3) -> [i64; 3] {
-        let edge = (4.0 * self.tolerance).max(SMALLEST_CELL);
+        let edge = if self.tolerance > 0.0 { 4.0 * self.tolerance } else { CELL_WITHOUT_TOLERANCE };
         position.to_array().map(|coordinate| (coordinate / edge).floor() as i64)
     }
 }

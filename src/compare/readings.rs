@@ -81,7 +81,7 @@ fn changes(reading: &Reading, base: &Reading) -> Vec<String> {
 }
 
 /// Tries every fair reading on the photons of `sample` and gives the one under which most of them
-/// match `submission` (positions in world space) within `tolerance` scene units; `None` when under
+/// match `submission` (positions in world space) within `tolerance` world units; `None` when under
 /// no reading more than half of them match. Of readings that match equally many, it is the one that
 /// comes closest, and of those that come equally close the one with the fewest changes.
 ///

@@ -1,16 +1,14 @@
 //! The comparison of two lists, put together.
 
-use std::fmt::Write as _;
-
 use glam::Vec3;
 use serde::Serialize;
 
 use super::alignment::{Pairing, align, with_bounces};
 use super::differences::{Difference, Differences, count};
 use super::divergence::{Divergence, Lists};
-use super::numbers::{short, thousands};
 use super::position_index::is_near;
 use super::readings::{Sample, best_reading};
+use super::whole::judge_whole;
 use crate::explain::explain;
 use crate::photon_list::reader::PhotonList;
 use crate::photon_list::writer::ListHash;
@@ -48,7 +46,7 @@ pub struct Report {
     pub submission_records: u64,
     /// The hash of both lists if they are identical and have all columns.
     pub sha256: Option<String>,
-    /// How far apart two positions may be that count as one, in scene units.
+    /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
     /// In what the lists differ.
     #[serde(flatten)]
@@ -74,7 +72,7 @@ pub fn scene_size(scene: &Scene) -> f32 {
     (high - low).max_element()
 }
 
-/// Compares two lists; positions are the same within `tolerance` scene units, and the part
+/// Compares two lists; positions are the same within `tolerance` world units, and the part
 /// `allowed` of all records, from 0 to 1, may differ before the lists do. `renderer` is the run of
 /// which `reference` is said to be the list; where they part is explained from it if it is.
 pub fn compare(
@@ -110,36 +108,49 @@ pub fn compare(
     let agree = few(f64::from(allowed));
     report.outcome = if agree { Outcome::WithinTolerance } else { Outcome::Different };
     report.differences = differences;
+    if !(reference.columns.photon && submission.columns.photon) && is_reordered(&pairings) {
+        report.add_note(if differing.is_empty() {
+            "the same photons in another order"
+        } else {
+            "the photons are in another order, and were matched by their places"
+        });
+    }
     if differing.is_empty() {
         return report;
     }
     let lists = Lists { reference, submission, pairings: &pairings, tolerance };
     let known = renderer.filter(|renderer| is_run_of(reference, renderer, tolerance));
     if known.is_none() {
-        report.note = Some(
+        report.add_note(
             "the run of the reference is not known; --seed and --photons (and --max-bounces, \
-             --scene, --light) name it, so that the divergence can be explained"
-                .to_owned(),
+             --scene, --light) name it, so that the divergence can be explained",
         );
     }
-    report.first_divergence = Some(lists.first_divergence(&differing, known));
-    let is_sure = report.first_divergence.as_ref().is_some_and(|divergence| divergence.certain);
-    if known.is_some() && !is_sure && 100 * report.differences.matched < report.reference_records {
-        report.note = Some(
+    let mut divergence = lists.first_divergence(&differing, known);
+    let whole = known.and_then(|renderer| judge_whole(&lists, &differing, renderer));
+    let is_explained = whole.is_some();
+    if let Some(whole) = whole {
+        divergence.section = Some(whole.section);
+        divergence.reason = Some(whole.reason);
+        divergence.certain = whole.is_certain;
+    }
+    let hardly_any = 100 * report.differences.matched < report.reference_records;
+    if hardly_any && report.submission_records > 0 {
+        divergence.certain = false;
+        report.add_note(
             "hardly any record matches: a list with another generator, seed or order of draws can \
-             be compared only by its statistics"
-                .to_owned(),
+             be compared only by its statistics",
         );
     }
+    report.first_divergence = Some(divergence);
     if few(USUAL_BY_ROUNDING) && !agree {
-        report.note = Some(
+        report.add_note(
             "so few may differ by rounding alone, where light grazes a surface or an edge; \
-             --allow 0.0001 lets them pass"
-                .to_owned(),
+             --allow 0.0001 lets them pass",
         );
     }
     let sample = sample(&lists, &differing);
-    if let Some(renderer) = known.filter(|_| !sample.is_empty()) {
+    if let Some(renderer) = known.filter(|_| !sample.is_empty() && !is_explained) {
         let positions: Vec<_> = submission.records.iter().map(|record| record.position).collect();
         let best = best_reading(renderer, &sample, &positions, tolerance);
         if let Some(best) = best {
@@ -203,96 +214,19 @@ fn sample(lists: &Lists, differing: &[(Pairing, Difference)]) -> Sample {
 }
 
 impl Report {
-    /// The report as text.
-    pub fn text(&self) -> String {
-        let records = |count: u64| if count == 1 { "record" } else { "records" };
-        let differences = &self.differences;
-        let matched = thousands(differences.matched);
-        match self.outcome {
-            Outcome::Identical => {
-                let mut text = format!("identical: {matched} {}", records(differences.matched));
-                if let Some(sha256) = &self.sha256 {
-                    text += &format!(", SHA-256 {sha256}");
-                }
-                return text + "\n";
-            }
-            Outcome::WithinTolerance if differences.is_none() => {
-                let word = records(differences.matched);
-                let tolerance = short(self.tolerance);
-                return format!("the same within {tolerance}: {matched} {word}\n");
-            }
-            Outcome::WithinTolerance | Outcome::Different => {}
-        }
-        let word = match self.outcome {
-            Outcome::Different => "different",
-            _ => "the same but for the few that may differ",
-        };
-        let mut text = format!(
-            "{word}: the reference has {} {}, the submission {}\n",
-            thousands(self.reference_records),
-            records(self.reference_records),
-            thousands(self.submission_records),
-        );
-        text += &counts(differences, self.tolerance);
-        if let Some(divergence) = &self.first_divergence {
-            text += &divergence.text();
-        }
-        if let (Some(reading), Some(matched), Some(tried)) =
-            (&self.reading, self.reading_matched, self.reading_tried)
-        {
-            text += &format!(
-                "\nexplained by another reading of the handout: {reading}\n  {matched} of {tried} \
-                 photons that differ match when traced again with it\n"
-            );
-        }
-        if let Some(note) = &self.note {
-            text += &format!("\nnote: {note}\n");
-        }
-        text
+    /// Adds `note` to what is noted already.
+    pub fn add_note(&mut self, note: &str) {
+        self.note = Some(match self.note.take() {
+            Some(before) => format!("{before}\n{note}"),
+            None => note.to_owned(),
+        });
     }
 }
 
-fn counts(differences: &Differences, tolerance: f32) -> String {
-    let mut text = String::new();
-    let mut line = |name: &str, count: u64, rest: &str| {
-        if count > 0 || name == "matched" {
-            let count = thousands(count);
-            writeln!(text, "  {name:<16}{count:>10}{rest}").expect("a string takes everything");
-        }
-    };
-    line("matched", differences.matched, &format!("  within {}", short(tolerance)));
-    line("missing", differences.missing, "");
-    line("extra", differences.extra, "");
-    let moved = differences.moved_largest.zip(differences.moved_median);
-    let distances = moved.map(|(largest, median)| {
-        format!("  by {} (median), {} at most", short(median), short(largest))
+fn is_reordered(pairings: &[Pairing]) -> bool {
+    let places = pairings.iter().filter_map(|pairing| match *pairing {
+        Pairing::Both(_, j) => Some(j),
+        _ => None,
     });
-    line("moved", differences.moved, &distances.unwrap_or_default());
-    line("not finite", differences.not_finite, "  positions of the submission");
-    line("wrong intensity", differences.wrong_intensity, "");
-    line("wrong to_light", differences.wrong_to_light, "");
-    text
-}
-
-impl Divergence {
-    fn text(&self) -> String {
-        let mut text = String::from("\nfirst divergence");
-        if let Some(photon) = self.photon {
-            text += &format!(": photon {}", thousands(photon));
-        }
-        if let Some(bounce) = self.bounce {
-            text += &format!(", bounce {bounce}");
-        }
-        text += "\n";
-        text += &format!("  the reference   {}\n", self.reference);
-        text += &format!("  the submission  {}\n", self.submission);
-        if let Some(section) = self.section {
-            let doubt = if self.certain { "" } else { " (perhaps)" };
-            text += &format!("  section         {}{doubt}\n", section.title());
-        }
-        if let Some(reason) = &self.reason {
-            text += &format!("  reason          {reason}\n");
-        }
-        text
-    }
+    !places.is_sorted()
 }

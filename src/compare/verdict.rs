@@ -66,7 +66,7 @@ pub struct Observation<'run> {
     pub is_same_photon: bool,
     /// How often the reference's photons may bounce.
     pub max_bounces: i32,
-    /// How far apart two positions may be that count as one, in scene units.
+    /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
 }
 

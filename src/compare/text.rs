@@ -1,0 +1,105 @@
+//! The report on two lists as text.
+
+use std::fmt::Write as _;
+
+use super::differences::Differences;
+use super::divergence::Divergence;
+use super::numbers::{short, thousands};
+use super::report::{Outcome, Report};
+
+impl Report {
+    /// The report as text.
+    pub fn text(&self) -> String {
+        let records = |count: u64| if count == 1 { "record" } else { "records" };
+        let differences = &self.differences;
+        let matched = thousands(differences.matched);
+        match self.outcome {
+            Outcome::Identical => {
+                let mut text = format!("identical: {matched} {}", records(differences.matched));
+                if let Some(sha256) = &self.sha256 {
+                    text += &format!(", SHA-256 {sha256}");
+                }
+                return text + "\n" + &self.notes();
+            }
+            Outcome::WithinTolerance if differences.is_none() => {
+                let word = records(differences.matched);
+                let tolerance = short(self.tolerance);
+                return format!("the same within {tolerance}: {matched} {word}\n") + &self.notes();
+            }
+            Outcome::WithinTolerance | Outcome::Different => {}
+        }
+        let word = match self.outcome {
+            Outcome::Different => "different",
+            _ => "the same but for the few that may differ",
+        };
+        let mut text = format!(
+            "{word}: the reference has {} {}, the submission {}\n",
+            thousands(self.reference_records),
+            records(self.reference_records),
+            thousands(self.submission_records),
+        );
+        text += &counts(differences, self.tolerance);
+        if let Some(divergence) = &self.first_divergence {
+            text += &divergence.text();
+        }
+        if let (Some(reading), Some(matched), Some(tried)) =
+            (&self.reading, self.reading_matched, self.reading_tried)
+        {
+            text += &format!(
+                "\nexplained by another reading of the handout: {reading}\n  {matched} of {tried} \
+                 photons that differ match when traced again with it\n"
+            );
+        }
+        text + &self.notes()
+    }
+
+    fn notes(&self) -> String {
+        let notes = self.note.iter().flat_map(|note| note.lines());
+        notes.map(|note| format!("\nnote: {note}\n")).collect()
+    }
+}
+
+fn counts(differences: &Differences, tolerance: f32) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, count: u64, rest: &str| {
+        if count > 0 || name == "matched" {
+            let count = thousands(count);
+            writeln!(text, "  {name:<16}{count:>10}{rest}").expect("a string takes everything");
+        }
+    };
+    line("matched", differences.matched, &format!("  within {}", short(tolerance)));
+    line("missing", differences.missing, "");
+    line("extra", differences.extra, "");
+    let moved = differences.moved_largest.zip(differences.moved_median);
+    let distances = moved.map(|(largest, median)| {
+        format!("  by {} (median), {} at most", short(median), short(largest))
+    });
+    line("moved", differences.moved, &distances.unwrap_or_default());
+    line("not finite", differences.not_finite, "  positions of the submission");
+    line("wrong intensity", differences.wrong_intensity, "");
+    line("wrong to_light", differences.wrong_to_light, "");
+    text
+}
+
+impl Divergence {
+    fn text(&self) -> String {
+        let mut text = String::from("\nfirst divergence");
+        if let Some(photon) = self.photon {
+            text += &format!(": photon {}", thousands(photon));
+        }
+        if let Some(bounce) = self.bounce {
+            text += &format!(", bounce {bounce}");
+        }
+        text += "\n";
+        text += &format!("  the reference   {}\n", self.reference);
+        text += &format!("  the submission  {}\n", self.submission);
+        if let Some(section) = self.section {
+            let doubt = if self.certain { "" } else { " (perhaps)" };
+            text += &format!("  section         {}{doubt}\n", section.title());
+        }
+        if let Some(reason) = &self.reason {
+            text += &format!("  reason          {reason}\n");
+        }
+        text
+    }
+}
