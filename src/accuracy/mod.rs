@@ -67,7 +67,7 @@ pub struct Emitter {
 /// order for three hundred. Judge by the errors given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
-    /// About a second for a dozen facets, errors about 1e-3 of the stored hits.
+    /// About a second for a dozen facets, bounds about 3e-3 of the stored hits.
     Quick,
     /// Up to a minute for a dozen facets, second and third hits to about 1e-8 and 2e-8.
     Full,
