@@ -415,7 +415,9 @@ fn the_header_names_the_range_and_the_scene() {
     let line = "render --quiet --size 1x1 --photons 20000 --range 5000..9000 --out {}";
     run_line(line, &[&part]).success();
     let ply = part.join("photons.ply");
-    let report = json(run_line("compare --json {} {}", &[&ply, &csv]).code(0));
+    let report = json(run_line("compare --json {} {}", &[&ply, &csv]).code(1));
+    assert_eq!(report["outcome"], "different", "what is left out is not the same");
+    assert_eq!(report["missing"], 0);
     assert!(report["note"].as_str().expect("a note").contains("only the photons 5000..9000"));
 
     let (model, light, _) = scaled_box(folder.path(), 2.0);

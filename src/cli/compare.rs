@@ -125,6 +125,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     };
     let mut submission = reader::load(submission)?;
     let mut notes = Vec::new();
+    let mut outside = 0;
     if let Some(run) = &named {
         if run.scene != Run::new(&renderer, 0..0).scene {
             notes.push("the reference is the list of another scene, light or reading".to_owned());
@@ -132,7 +133,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
         if submission.columns.photon && run.range != (0..run.emitted) {
             let before = submission.records.len();
             submission.records.retain(|record| run.range.contains(&u64::from(record.photon)));
-            let outside = before - submission.records.len();
+            outside = before - submission.records.len();
             if outside > 0 {
                 let Range { start, end } = run.range;
                 notes.push(format!(
@@ -146,6 +147,11 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     // Lists have world positions, and a scene need not be traced at its own size.
     let tolerance = arguments.tolerance * scene.frame().length_to_world(scene_size(scene));
     let mut report = compare(&reference, &submission, Some(&renderer), tolerance, arguments.allow);
+    if outside > 0 {
+        // What was left out cannot be called the same.
+        report.outcome = Outcome::Different;
+        report.sha256 = None;
+    }
     notes.iter().for_each(|note| report.add_note(note));
     finish(arguments, &report, &report.text(), report.outcome)
 }
