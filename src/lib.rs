@@ -14,6 +14,7 @@ pub mod assignment8;
 pub mod cli;
 pub mod compare;
 pub mod explain;
+pub mod grading;
 pub mod lanes;
 pub mod photon_list;
 pub mod random;

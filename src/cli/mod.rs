@@ -4,6 +4,7 @@ pub mod compare;
 pub mod error;
 pub mod expect;
 pub mod explain;
+pub mod grade;
 pub mod merge;
 pub mod output;
 pub mod render;
@@ -41,6 +42,8 @@ enum Command {
     Compare(Box<compare::CompareArgs>),
     /// Tell the whole story of one photon
     Explain(Box<explain::ExplainArgs>),
+    /// Judge submissions of any generator: correct, or what was misread
+    Grade(grade::GradeArgs),
     /// Compute how many hits are expected, without tracing a photon
     Expect(expect::ExpectArgs),
     /// Join the lists, or the count-only summaries, of adjoining ranges of one run
@@ -71,6 +74,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Some(Command::Expect(arguments)) => expect::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
+        Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
     };

@@ -61,6 +61,7 @@ fn changes(reading: &Reading, base: &Reading) -> Vec<String> {
             TangentBasis::LetterOfTheHandout => {
                 "t and b to the letter of the handout, not normalised".to_owned()
             }
+            TangentBasis::Transposed => "t, b and n as rows".to_owned(),
         });
     }
     if reading.fallback_threshold != base.fallback_threshold {

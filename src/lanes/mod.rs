@@ -32,6 +32,7 @@ use std::ops::Range;
 
 use crate::photon_list::record::PhotonRecord;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use crate::rendering::reading::TangentBasis;
 use crate::rendering::sampler::Sampler;
 use crate::rendering::sampling::tangent_frame;
 use crate::scene::triangle::Triangle;
@@ -75,11 +76,13 @@ impl Surface {
 
 impl<'renderer> LaneTracer<'renderer> {
     /// Prepares `renderer`'s scene for vectors of `width`; `None` when the scene or the run is too
-    /// large for lanes, or the numbers are not ChaCha's.
+    /// large for lanes, the numbers are not ChaCha's, or the frame is not what lanes take it for.
     pub fn new(renderer: &'renderer PhotonMappingRenderer, width: Width) -> Option<Self> {
         let scene = &renderer.stored_scene;
         if scene.triangles().len() > MOST_TRIANGLES
             || renderer.sampler != Sampler::ChaCha
+            // The last column of the frame is taken for the normal.
+            || renderer.reading.tangent_basis == TangentBasis::Transposed
             || renderer.emitted() > 1 << 32
         {
             return None;

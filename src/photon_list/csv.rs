@@ -30,7 +30,7 @@ pub fn push_line(text: &mut String, record: &PhotonRecord) {
 pub(super) fn read(
     mut input: impl BufRead,
     path: &Path,
-    mut on_record: impl FnMut(PhotonRecord),
+    mut on_record: impl FnMut(PhotonRecord) -> Result<(), ListError>,
 ) -> Result<Columns, ListError> {
     let mut line = String::new();
     let mut number = 0;
@@ -83,7 +83,7 @@ pub(super) fn read(
             let message = format!("line {number}: expected {expected} values, found {found}");
             return Err(ListError::malformed(path, message));
         }
-        on_record(record);
+        on_record(record)?;
     }
     Ok(columns)
 }

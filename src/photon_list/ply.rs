@@ -108,7 +108,7 @@ pub fn comments(path: &Path) -> Result<Vec<String>, ListError> {
 pub(super) fn read(
     mut input: impl BufRead,
     path: &Path,
-    mut on_record: impl FnMut(PhotonRecord),
+    mut on_record: impl FnMut(PhotonRecord) -> Result<(), ListError>,
 ) -> Result<Columns, ListError> {
     let header = read_header(&mut input, path)?;
     let names = header.properties.iter().map(|(_, name)| name.as_str());
@@ -152,7 +152,7 @@ pub(super) fn read(
                 }
             }
         }
-        on_record(record);
+        on_record(record)?;
     }
     let rest = input.fill_buf().map_err(|error| ListError::unreadable(path, error))?;
     if header.only_vertices && header.binary && !rest.is_empty() {

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::scene::LARGE_EPSILON;
 
-/// Whether the tangent and bitangent of equations (7) and (8) are normalised.
+/// What becomes of the tangent and bitangent of equations (7) and (8).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentBasis {
     /// Both have length 1: the scattered directions follow the cosine.
@@ -12,6 +12,9 @@ pub enum TangentBasis {
     /// As the equations stand: t = n x (1, 0, 0) is shorter than 1 unless n is at a right angle to
     /// the x axis, and the lobe of directions is narrower than the cosine's.
     LetterOfTheHandout,
+    /// Both have length 1, but t, b and n are the rows of the matrix instead of its columns. This is
+    /// no fair reading: it is here so that it can be told from one.
+    Transposed,
 }
 
 /// Where the scattered ray starts, seen from the point hit. Lengths are in scene units.
@@ -40,7 +43,7 @@ impl Offset {
 /// One reading of the handout.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
-    /// Whether t and b are normalised.
+    /// What becomes of t and b.
     pub tangent_basis: TangentBasis,
     /// How close to 1 the absolute dot product of the normal and the x axis may come before
     /// `fallback_axis` takes the x axis's place.

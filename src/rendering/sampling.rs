@@ -26,12 +26,13 @@ pub fn tangent_frame(normal: Vec3, reading: &Reading) -> Mat3 {
     let is_parallel = normal.dot(Vec3::X).abs() > reading.fallback_threshold;
     let axis = if is_parallel { reading.fallback_axis } else { Vec3::X };
     let mut tangent = normal.cross(axis);
-    if reading.tangent_basis == TangentBasis::Normalised {
+    if reading.tangent_basis != TangentBasis::LetterOfTheHandout {
         tangent = tangent.normalize();
     }
     let mut bitangent = normal.cross(tangent);
-    if reading.tangent_basis == TangentBasis::Normalised {
+    if reading.tangent_basis != TangentBasis::LetterOfTheHandout {
         bitangent = bitangent.normalize();
     }
-    Mat3::from_cols(tangent, bitangent, normal)
+    let columns = Mat3::from_cols(tangent, bitangent, normal);
+    if reading.tangent_basis == TangentBasis::Transposed { columns.transpose() } else { columns }
 }

@@ -1,0 +1,543 @@
+//! The checks of a photon list.
+
+use std::borrow::Cow;
+
+use super::hypotheses::{Hypothesis, fair_readings, misreadings};
+use super::naming::{Explanation, Known, name};
+use super::observation::{Observation, ToLight};
+use super::places::Places;
+use super::signature::{Signature, Signatures, classes};
+use super::statistics::{Law, corrected, fit, grouped, normal_tails, towards};
+use super::verdict::{Finding, Weight};
+use crate::compare::verdict::Section;
+
+/// A submission that is as strange as this by chance alone is called incorrect. Of ten thousand
+/// submissions that are correct, one may be; a tenth of that leaves room for what the tests assume.
+pub const SIGNIFICANCE: f64 = 1e-5;
+/// By which part of itself an expectation may be off for reasons that a course cannot fault: where
+/// exactly a ray starts, and how far off the surface a position is stored.
+const LEEWAY: f64 = 0.008;
+/// Cells are joined until so many photons are expected in each: below, counts are too far from normal.
+const LEAST_EXPECTED: f64 = 25.0;
+/// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
+const MOST_REPEATED: f64 = 0.01;
+/// A stray photon or two is left to rounding.
+const MOST_ASTRAY: f64 = 5e-4;
+/// A list of photons without a count is too short for what the handout asks for when it fits fewer
+/// photons sent out than this.
+const LEAST_EMITTED: f64 = 5000.0;
+
+/// What the photons of a list say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The findings.
+    pub findings: Vec<Finding>,
+    /// The misreading, if a known one explains them.
+    pub explanation: Option<Explanation>,
+    /// The fair reading that fits best.
+    pub reading: Hypothesis,
+    /// That reading's signature.
+    pub signature: Signature,
+    /// How many photons were sent out: as known, or as it fits best.
+    pub emitted: f64,
+}
+
+/// All that lists are held against.
+#[derive(Clone, Debug)]
+pub struct Expectations {
+    /// The scene's places.
+    pub places: Places,
+    /// The signatures of all hypotheses.
+    pub signatures: Signatures,
+    fair: Vec<Hypothesis>,
+    misreadings: Vec<Hypothesis>,
+}
+
+impl Expectations {
+    /// For photons that may bounce as often as `signatures` says.
+    pub fn new(places: Places, signatures: Signatures) -> Self {
+        Self { places, signatures, fair: fair_readings(), misreadings: misreadings() }
+    }
+}
+
+/// One number's test.
+struct Test {
+    check: &'static str,
+    p_value: f64,
+    found: String,
+}
+
+/// The tests of a list against one fair reading.
+struct Trial {
+    reading: usize,
+    tests: Vec<Test>,
+    /// The smallest p-value, corrected for the number of tests.
+    p_value: f64,
+    emitted: f64,
+}
+
+/// Judges `observation`, of a list with at least one finite position, where `emitted` photons were sent
+/// out by the word of the user, or of the list itself.
+pub fn judge(
+    observation: &Observation,
+    emitted: Option<f64>,
+    emitted_by_user: bool,
+    expectations: &Expectations,
+) -> Judgement {
+    let places = &expectations.places;
+    let known = Known {
+        hypotheses: &expectations.misreadings,
+        signatures: &expectations.signatures.misreadings,
+        max_bounces: expectations.signatures.max_bounces,
+    };
+    let mut findings = plain_findings(observation, places);
+    let mut trial = best_trial(observation, emitted, expectations);
+    let is_off = trial.p_value < SIGNIFICANCE || findings.iter().any(Finding::is_fault);
+    let mut explanation = is_off.then(|| name(observation, emitted, places, known)).flatten();
+    if is_off && explanation.is_none() && emitted.is_some() && !emitted_by_user {
+        // A wrong intensity is no fault, so the number that it gives must not become one.
+        let by_shape = best_trial(observation, None, expectations);
+        let number = Finding {
+            check: "number by intensity",
+            section: Some(Section::PhotonStorage.title()),
+            expected: "photons for as many sent out as the intensity says".to_owned(),
+            found: format!(
+                "the intensity says {:.0}, the photons fit {:.0}",
+                emitted.unwrap_or_default(),
+                by_shape.emitted
+            ),
+            p_value: Some(trial.p_value),
+            passed: false,
+            weight: Weight::Remark,
+            advice:
+                "Set 'intensity' to lightIntensity, the light's colour divided by the photons it \
+                     sends out."
+                    .into(),
+        };
+        if by_shape.p_value >= SIGNIFICANCE {
+            findings.push(number);
+            trial = by_shape;
+        } else {
+            explanation = name(observation, None, places, known);
+        }
+    }
+    let reading = expectations.fair[trial.reading].clone();
+    let signature = expectations.signatures.fair[trial.reading].clone();
+    findings.extend(
+        trial
+            .tests
+            .iter()
+            .map(|test| finding_of(test, trial.tests.len(), &reading, explanation.as_ref())),
+    );
+    findings.push(enough(observation, emitted, trial.emitted));
+    findings.extend(bounce_findings(observation, emitted, &signature, expectations));
+    findings.extend(remarks(observation));
+    Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
+}
+
+/// What can be said without statistics.
+fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
+    let counts = &observation.counts;
+    let records = observation.records as f64;
+    let finite = records - counts.not_finite;
+    let transformation = Some(Section::HemisphereRayTransformation.title());
+    let storage = Some(Section::PhotonStorage.title());
+    let fact =
+        |check, section, expected: &str, found, passed, weight, advice: &'static str| Finding {
+            check,
+            section,
+            expected: expected.to_owned(),
+            found,
+            p_value: None,
+            passed,
+            weight,
+            advice: if passed { Cow::Borrowed("") } else { advice.into() },
+        };
+    let of_all = |count: f64, all: f64| format!("{count:.0} of {all:.0}");
+    let repeated: f64 = observation.repeated.iter().sum();
+    let on_facets: f64 = observation.on_facet.iter().sum();
+    let surfaces = places.surfaces.len();
+    vec![
+        fact(
+            "finite",
+            transformation,
+            "every position is finite",
+            format!("{} are not", of_all(counts.not_finite, records)),
+            counts.not_finite == 0.0,
+            Weight::Grave,
+            "Look for a vector of length 0 that is normalised: t where the normal is (-1, 0, 0).",
+        ),
+        fact(
+            "on surfaces",
+            storage,
+            &format!("every photon lies on one of the {surfaces} surfaces, up to 0.007 off"),
+            format!("{} lie elsewhere", of_all(counts.off_surface, finite)),
+            counts.off_surface <= (MOST_ASTRAY * finite).max(1.0),
+            Weight::Grave,
+            "The position is state.intersectionRay.GetRayPosition(state.intersectionT), in world \
+             space.",
+        ),
+        fact(
+            "footprints",
+            transformation,
+            "no photon lies on the floor beneath a box",
+            format!("{} do", of_all(counts.footprint, finite)),
+            counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
+            Weight::Fault,
+            "A photon got into a box: directions must be in the hemisphere over the normal, and the \
+             scattered ray must start above the surface.",
+        ),
+        fact(
+            "same place",
+            transformation,
+            "hardly any two photons lie at the same place",
+            format!("{} lie where another one does", of_all(repeated, on_facets)),
+            repeated <= (MOST_REPEATED * on_facets).max(2.0),
+            Weight::Fault,
+            "Scattered rays hit the triangle they leave: start them a little above the surface, or \
+             check that no photon is inserted twice.",
+        ),
+    ]
+}
+
+/// The fair reading under which `observation` is least strange.
+fn best_trial(
+    observation: &Observation,
+    emitted: Option<f64>,
+    expectations: &Expectations,
+) -> Trial {
+    let trials = expectations.signatures.fair.iter().enumerate();
+    let trials = trials.map(|(reading, signature)| {
+        attempt(observation, emitted, reading, signature, expectations)
+    });
+    // The first, which is the reference's, unless another one is clearly better.
+    trials
+        .reduce(|best, trial| {
+            let is_better = trial.p_value > best.p_value && best.p_value < 0.01;
+            if is_better { trial } else { best }
+        })
+        .expect("there is at least one fair reading")
+}
+
+fn attempt(
+    observation: &Observation,
+    emitted: Option<f64>,
+    reading: usize,
+    signature: &Signature,
+    expectations: &Expectations,
+) -> Trial {
+    let places = &expectations.places;
+    let counts = classes(&observation.counts, places);
+    let law = signature.law_of_classes(LEEWAY);
+    // A footprint has a check of its own.
+    let (law, counts) = without_last(&law, &counts);
+    let size = emitted.unwrap_or_else(|| fit(&counts, &law, None).emitted);
+    let mut tests = Vec::new();
+
+    if let Some(emitted) = emitted {
+        let whole = law.grouped(&vec![0; counts.len()], 1);
+        let fit = fit(&[counts.iter().sum()], &whole, Some(emitted));
+        let (expected, found) = (emitted * whole.mean[0], counts.iter().sum::<f64>());
+        tests.push(Test {
+            check: "number",
+            p_value: fit.p_value,
+            found: format!("{found:.0} photons where {expected:.0} are expected"),
+        });
+    }
+
+    let (groups, count) = joined(&law.mean, size);
+    let (joined_law, joined_counts) =
+        (law.grouped(&groups, count), grouped(&counts, &groups, count));
+    let of_facets = fit(&joined_counts, &joined_law, emitted);
+    tests.push(Test {
+        check: "facets",
+        p_value: of_facets.p_value,
+        found: farthest(&counts, &law, size, |class| places.class_name(class)),
+    });
+
+    let of_cells = signature.law_of_cells(&expectations.signatures.correlation, LEEWAY);
+    let groups = expectations.places.joined_cells(&of_cells.mean, size, LEAST_EXPECTED);
+    let count = groups.iter().max().map_or(0, |last| last + 1);
+    let joined_law = of_cells.grouped(&groups, count);
+    let joined_counts = grouped(&observation.counts.cells, &groups, count);
+    tests.push(Test {
+        check: "density",
+        p_value: fit(&joined_counts, &joined_law, emitted).p_value,
+        found: farthest(&observation.counts.cells, &of_cells, size, |cell| places.cell_name(cell)),
+    });
+
+    let mut farthest_towards = (0.0, "");
+    let hypotheses = expectations.misreadings.iter();
+    for (hypothesis, other) in hypotheses.zip(&expectations.signatures.misreadings) {
+        let (_, other) = without_last(&law_of(other), &other.classes);
+        let z = towards(&counts, &law, &other, emitted);
+        if z > farthest_towards.0 {
+            farthest_towards = (z, hypothesis.id);
+        }
+    }
+    let (z, id) = farthest_towards;
+    // As many tests as there are misreadings, of one side each.
+    let p_value = corrected(0.5 * normal_tails(z), expectations.misreadings.len());
+    tests.push(Test {
+        check: "known misreadings",
+        p_value,
+        found: format!("{z:.1} standard deviations on the way to '{id}'"),
+    });
+
+    let smallest = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
+    Trial {
+        reading,
+        p_value: corrected(smallest, tests.len()),
+        tests,
+        emitted: emitted.unwrap_or(of_facets.emitted),
+    }
+}
+
+fn law_of(signature: &Signature) -> Law {
+    signature.law_of_classes(LEEWAY)
+}
+
+fn without_last(law: &Law, counts: &[f64]) -> (Law, Vec<f64>) {
+    let last = counts.len() - 1;
+    let covariance = law.covariance[..last].iter().map(|row| row[..last].to_vec()).collect();
+    let law = Law { mean: law.mean[..last].to_vec(), covariance, ..*law };
+    (law, counts[..last].to_vec())
+}
+
+/// Groups in which at least [`LEAST_EXPECTED`] photons are expected: what has fewer is joined.
+fn joined(mean: &[f64], emitted: f64) -> (Vec<usize>, usize) {
+    let mut groups = Vec::new();
+    let mut count = 0;
+    let mut small = None;
+    for mean in mean {
+        let is_small = emitted * mean < LEAST_EXPECTED;
+        let group = match small {
+            Some(group) if is_small => group,
+            _ => {
+                count += 1;
+                count - 1
+            }
+        };
+        if is_small {
+            small = Some(group);
+        }
+        groups.push(group);
+    }
+    (groups, count)
+}
+
+/// The count that is farthest from its expectation, in words.
+fn farthest(counts: &[f64], law: &Law, emitted: f64, name: impl Fn(usize) -> String) -> String {
+    let z = |at: usize| {
+        let deviation = (emitted * law.covariance[at][at]).sqrt().max(1.0);
+        (counts[at] - emitted * law.mean[at]) / deviation
+    };
+    let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
+    let at = farthest.unwrap_or_default();
+    format!(
+        "farthest off: {}, {:.0} photons where {:.0} are expected ({:+.1} standard deviations)",
+        name(at),
+        counts[at],
+        emitted * law.mean[at],
+        z(at)
+    )
+}
+
+fn finding_of(
+    test: &Test,
+    tests: usize,
+    reading: &Hypothesis,
+    explanation: Option<&Explanation>,
+) -> Finding {
+    let p_value = corrected(test.p_value, tests);
+    let passed = p_value >= SIGNIFICANCE;
+    let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
+    let expected = match test.check {
+        "number" => "as many photons as the scene stores of those sent out",
+        "facets" => "on every facet as many photons as the scene leaves there",
+        "density" => "the scene's density over every facet",
+        _ => "no tendency towards a known misreading",
+    };
+    Finding {
+        check: test.check,
+        section: misreading.map(|misreading| misreading.section.title()),
+        expected: format!("{expected} ({})", reading.title),
+        found: test.found.clone(),
+        p_value: Some(p_value),
+        passed,
+        weight: Weight::Fault,
+        advice: match misreading {
+            Some(misreading) if !passed => misreading.advice.into(),
+            None if !passed => {
+                "None of the known misreadings explains it. Print a few photons and \
+                 follow them by hand; 'photon-mapping explain' tells one's whole story."
+                    .into()
+            }
+            _ => "".into(),
+        },
+    }
+}
+
+/// Whether the list is long enough to be what the handout asks for.
+fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> Finding {
+    let passed = emitted.is_some() || fitted >= LEAST_EMITTED;
+    Finding {
+        check: "enough photons",
+        section: Some(Section::PhotonStorage.title()),
+        expected: format!("the photons of at least {LEAST_EMITTED} sent out"),
+        found: format!("{} photons, of about {fitted:.0} sent out", observation.records),
+        p_value: None,
+        passed,
+        weight: Weight::Fault,
+        advice: if passed {
+            "".into()
+        } else {
+            "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it \
+             sent out fewer, grade with --emitted."
+                .into()
+        },
+    }
+}
+
+fn bounce_findings(
+    observation: &Observation,
+    emitted: Option<f64>,
+    signature: &Signature,
+    expectations: &Expectations,
+) -> Vec<Finding> {
+    let (Some(by_bounce), Some([first, last])) = (&observation.by_bounce, observation.bounces)
+    else {
+        return Vec::new();
+    };
+    let places = &expectations.places;
+    let max_bounces = expectations.signatures.max_bounces;
+    let allowed = usize::try_from(max_bounces).unwrap_or(0);
+    let size = emitted.unwrap_or_else(|| {
+        observation.counts.on_surfaces() / signature.classes.iter().sum::<f64>()
+    });
+    let mut findings = Vec::new();
+    let expected_at = |bounce: usize| size * signature.by_bounce[bounce].iter().sum::<f64>();
+    if (1..=by_bounce.len()).contains(&allowed) {
+        // As many bounces must occur as are allowed.
+        let expected = expected_at(allowed - 1);
+        let seen = usize::from(last - first) + 1;
+        let p_value = if seen < allowed { (-expected).exp() } else { 1.0 };
+        let passed = p_value >= SIGNIFICANCE;
+        findings.push(Finding {
+            check: "last bounce",
+            section: Some(Section::PhotonStorage.title()),
+            expected: format!(
+                "photons after {allowed} bounces, which are allowed: about {expected:.0}"
+            ),
+            found: format!("photons after up to {seen} bounces"),
+            p_value: Some(p_value),
+            passed,
+            weight: Weight::Fault,
+            advice: if passed {
+                "".into()
+            } else {
+                "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.".into()
+            },
+        });
+    }
+    let mut smallest = 1.0_f64;
+    let mut tests = 0;
+    for (bounce, counts) in by_bounce.iter().enumerate().take(allowed) {
+        let counts = classes(counts, places);
+        let law = signature.law_of_bounce(bounce, LEEWAY);
+        let (groups, count) = joined(&law.mean, size);
+        if count < 2 {
+            continue;
+        }
+        let fit = fit(&grouped(&counts, &groups, count), &law.grouped(&groups, count), emitted);
+        smallest = smallest.min(fit.p_value);
+        tests += 1;
+    }
+    let p_value = corrected(smallest, tests.max(1));
+    let passed = p_value >= SIGNIFICANCE;
+    findings.push(Finding {
+        check: "bounces",
+        section: Some(Section::PhotonStorage.title()),
+        expected: "on every facet as many photons of every bounce as the scene leaves there"
+            .to_owned(),
+        found: if passed { "so it is" } else { "other numbers" }.to_owned(),
+        p_value: Some(p_value),
+        passed,
+        // Positions alone are asked for; a column that counts otherwise is no fault.
+        weight: Weight::Remark,
+        advice: if passed { "" } else { "Check how your list counts bounces." }.into(),
+    });
+    findings
+}
+
+/// What costs nothing, since the handout says that positions are sufficient.
+fn remarks(observation: &Observation) -> Vec<Finding> {
+    let remark = |check, expected: &str, found: String, passed, advice: &'static str| Finding {
+        check,
+        section: Some(Section::PhotonStorage.title()),
+        expected: expected.to_owned(),
+        found,
+        p_value: None,
+        passed,
+        weight: Weight::Remark,
+        advice: if passed { "".into() } else { advice.into() },
+    };
+    let mut findings = Vec::new();
+    if observation.has_odd_intensity {
+        findings.push(remark(
+            "intensity",
+            "one intensity for all: the light's colour divided by the photons sent out",
+            "intensities that differ, or say nothing".to_owned(),
+            false,
+            "Set 'intensity' to lightIntensity as it is.",
+        ));
+    }
+    let Some(to_light) = observation.to_light else {
+        return findings;
+    };
+    let ToLight { set, not_unit, from_behind, to_the_light, all_alike } = to_light;
+    let records = observation.records;
+    let is_set = set == records && !all_alike;
+    findings.push(remark(
+        "to_light set",
+        "a direction for every photon",
+        if all_alike { "all the same".to_owned() } else { format!("{set} of {records} have one") },
+        is_set,
+        "Set 'toLightRay' to a ray in the opposite direction of the photon ray.",
+    ));
+    if !is_set {
+        return findings;
+    }
+    let most = |count: u64| count as f64 > 0.5 * set as f64;
+    let few = |count: u64| count as f64 <= 0.01 * set as f64;
+    findings.push(remark(
+        "to_light length",
+        "directions of length 1",
+        format!("{not_unit} of {set} are not"),
+        few(not_unit),
+        "Normalise the direction.",
+    ));
+    findings.push(remark(
+        "to_light direction",
+        "directions to where the photon came from, in front of the surface",
+        format!("{from_behind} of {set} point behind the surface"),
+        few(from_behind),
+        if most(from_behind) {
+            "The sign is reversed: it points in the OPPOSITE direction of the photon ray."
+        } else {
+            "The photon ray's direction, with the opposite sign."
+        },
+    ));
+    let is_indirect = few(to_the_light);
+    findings.push(Finding {
+        weight: if is_indirect { Weight::Remark } else { Weight::Grave },
+        ..remark(
+            "indirect only",
+            "photons that have bounced, not those straight from the light",
+            format!("{to_the_light} of {set} come straight from the light"),
+            is_indirect,
+            "Do not store a photon while the size of 'path' is 1.",
+        )
+    });
+    findings
+}

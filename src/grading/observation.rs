@@ -1,0 +1,205 @@
+//! What a list of photons shows: counted by place, and looked over for what cannot be right.
+
+use super::places::{Place, Places};
+use crate::photon_list::reader::PhotonList;
+use crate::photon_list::record::PhotonRecord;
+use glam::{DVec3, Vec3};
+
+/// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
+const SAME_PLACE: f64 = 2e-5;
+/// How many neighbours are looked at before a photon counts as alone.
+const MOST_NEIGHBOURS: usize = 256;
+/// How many bounces are counted apart.
+pub const BOUNCES: usize = 4;
+
+/// Counts by place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counts {
+    /// By cell.
+    pub cells: Vec<f64>,
+    /// Where one facet rises from another.
+    pub corner: f64,
+    /// Where a box stands.
+    pub footprint: f64,
+    /// On no facet.
+    pub off_surface: f64,
+    /// Nowhere.
+    pub not_finite: f64,
+}
+
+impl Counts {
+    /// Nothing counted yet.
+    pub fn new(places: &Places) -> Self {
+        Self {
+            cells: vec![0.0; places.cells],
+            corner: 0.0,
+            footprint: 0.0,
+            off_surface: 0.0,
+            not_finite: 0.0,
+        }
+    }
+
+    /// Counts a photon at `place`.
+    pub fn add(&mut self, place: Place) {
+        match place {
+            Place::Cell { cell, .. } => self.cells[cell] += 1.0,
+            Place::Corner { .. } => self.corner += 1.0,
+            Place::Footprint => self.footprint += 1.0,
+            Place::OffSurface => self.off_surface += 1.0,
+            Place::NotFinite => self.not_finite += 1.0,
+        }
+    }
+
+    /// All that lie on a facet.
+    pub fn on_surfaces(&self) -> f64 {
+        self.cells.iter().sum::<f64>() + self.corner + self.footprint
+    }
+}
+
+/// What the directions back to the light look like.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToLight {
+    /// Records that have one which is not zero and finite.
+    pub set: u64,
+    /// Of these, how many are not of length 1.
+    pub not_unit: u64,
+    /// How many come from behind the facet.
+    pub from_behind: u64,
+    /// How many point straight to the light.
+    pub to_the_light: u64,
+    /// Whether all are the same.
+    pub all_alike: bool,
+}
+
+/// What a list shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// How many records it has.
+    pub records: u64,
+    /// Where they lie.
+    pub counts: Counts,
+    /// By facet: how many have another one at the same place after them.
+    pub repeated: Vec<f64>,
+    /// By facet: all of its photons.
+    pub on_facet: Vec<f64>,
+    /// How many photons were sent out by the word of the intensities, if they agree with each other.
+    pub emitted_by_intensity: Option<f64>,
+    /// Whether the list has intensities that are of no use.
+    pub has_odd_intensity: bool,
+    /// The directions, if the list has them.
+    pub to_light: Option<ToLight>,
+    /// Counts by bounce, the first stored being the first, if the list has bounces.
+    pub by_bounce: Option<Vec<Counts>>,
+    /// The smallest and the largest bounce.
+    pub bounces: Option<[u16; 2]>,
+}
+
+/// Looks at `list`, whose positions are in world space, with the light at `light`.
+pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation {
+    let located: Vec<Place> =
+        list.records.iter().map(|record| places.place(record.position.as_dvec3())).collect();
+    let mut counts = Counts::new(places);
+    let mut on_facet = vec![0.0; places.facets.len()];
+    for place in &located {
+        counts.add(*place);
+        if let Some(facet) = facet_of(*place) {
+            on_facet[facet] += 1.0;
+        }
+    }
+    let bounces = list.columns.bounce.then(|| {
+        let all = list.records.iter().map(|record| record.bounce);
+        [all.clone().min().unwrap_or(0), all.max().unwrap_or(0)]
+    });
+    let by_bounce = bounces.map(|[first, _]| {
+        let mut by_bounce = vec![Counts::new(places); BOUNCES];
+        for (record, place) in list.records.iter().zip(&located) {
+            if let Some(counts) = by_bounce.get_mut(usize::from(record.bounce - first)) {
+                counts.add(*place);
+            }
+        }
+        by_bounce
+    });
+    let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
+    Observation {
+        records: list.records.len() as u64,
+        repeated: repeated(&list.records, &located, places.facets.len()),
+        counts,
+        on_facet,
+        emitted_by_intensity: intensity.flatten(),
+        has_odd_intensity: intensity == Some(None) && !list.records.is_empty(),
+        to_light: list.columns.to_light.then(|| directions(&list.records, &located, places, light)),
+        by_bounce,
+        bounces,
+    }
+}
+
+fn facet_of(place: Place) -> Option<usize> {
+    match place {
+        Place::Cell { facet, .. } | Place::Corner { facet } => Some(facet),
+        _ => None,
+    }
+}
+
+/// The intensity is the light's colour, which is white, divided by the photons it sends out.
+fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
+    let first = f64::from(records.first()?.intensity.x);
+    let is_like_first = |intensity: Vec3| {
+        let channels = intensity.as_dvec3().to_array();
+        channels.iter().all(|channel| (channel - first).abs() <= 1e-5 * first)
+    };
+    let emitted = 1.0 / first;
+    let is_a_number = (1000.0..1e12).contains(&emitted);
+    let agree = is_a_number && records.iter().all(|record| is_like_first(record.intensity));
+    // Of f32, whose 7 digits leave the last of a larger number open.
+    agree.then(|| if emitted < 1e6 { emitted.round() } else { emitted })
+}
+
+/// By facet, how many photons have another one at the same place that comes after them on a sweep.
+fn repeated(records: &[PhotonRecord], located: &[Place], facets: usize) -> Vec<f64> {
+    // Askew to all facets, so that few photons are abreast.
+    let way = DVec3::new(0.5342, 0.6171, 0.5777);
+    let mut sweep: Vec<(f64, DVec3, usize)> = records
+        .iter()
+        .zip(located)
+        .filter_map(|(record, place)| {
+            let position = record.position.as_dvec3();
+            facet_of(*place).map(|facet| (position.dot(way), position, facet))
+        })
+        .collect();
+    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut repeated = vec![0.0; facets];
+    for (at, (along, position, facet)) in sweep.iter().enumerate() {
+        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
+        let mut near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
+        if near.any(|other| other.1.distance_squared(*position) <= SAME_PLACE * SAME_PLACE) {
+            repeated[*facet] += 1.0;
+        }
+    }
+    repeated
+}
+
+fn directions(
+    records: &[PhotonRecord],
+    located: &[Place],
+    places: &Places,
+    light: DVec3,
+) -> ToLight {
+    let mut found = ToLight { all_alike: true, ..ToLight::default() };
+    for (record, place) in records.iter().zip(located) {
+        let direction = record.to_light.as_dvec3();
+        found.all_alike &= record.to_light == records[0].to_light;
+        if !direction.is_finite() || direction == DVec3::ZERO {
+            continue;
+        }
+        found.set += 1;
+        found.not_unit += u64::from((direction.length() - 1.0).abs() > 1e-3);
+        if let Place::Cell { facet, .. } = place {
+            found.from_behind += u64::from(direction.dot(places.facets[*facet].normal) < 0.0);
+        }
+        let straight = (light - record.position.as_dvec3()).normalize();
+        let aside = straight.cross(direction.normalize()).length();
+        found.to_the_light += u64::from(aside < 1e-3 && straight.dot(direction) > 0.0);
+    }
+    found.all_alike &= records.len() > 1;
+    found
+}

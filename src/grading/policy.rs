@@ -1,0 +1,62 @@
+//! What a verdict is worth.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::verdict::Verdict;
+
+/// Scores by verdict. The default is the handout's rubric: 4 for dots that look reasonable, 2 or 3 for
+/// dots that look incorrect, 1 for no dots, 0 for nothing.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Policy {
+    /// For a correct submission.
+    pub correct: f64,
+    /// For an incorrect one whose photons are finite, on surfaces, and indirect only.
+    pub plausible: f64,
+    /// For any other incorrect one.
+    pub incorrect: f64,
+    /// For one without dots.
+    pub no_dots: f64,
+    /// For one that cannot be read.
+    pub unreadable: f64,
+    /// For an incorrect one with this misreading, in place of the above.
+    pub misreadings: BTreeMap<String, f64>,
+}
+
+impl Default for Policy {
+    fn default() -> Self {
+        Self {
+            correct: 4.0,
+            plausible: 3.0,
+            incorrect: 2.0,
+            no_dots: 1.0,
+            unreadable: 0.0,
+            misreadings: BTreeMap::new(),
+        }
+    }
+}
+
+impl Policy {
+    /// The score of `verdict`, where `is_plausible` tells whether photons are finite, on surfaces, and
+    /// indirect only.
+    pub fn score(&self, verdict: Verdict, misreading: Option<&str>, is_plausible: bool) -> f64 {
+        match verdict {
+            Verdict::Correct => self.correct,
+            Verdict::NoDots => self.no_dots,
+            Verdict::Unreadable => self.unreadable,
+            Verdict::Incorrect => match misreading.and_then(|id| self.misreadings.get(id)) {
+                Some(score) => *score,
+                None if is_plausible => self.plausible,
+                None => self.incorrect,
+            },
+        }
+    }
+
+    /// The highest score.
+    pub fn best(&self) -> f64 {
+        let others = [self.plausible, self.incorrect, self.no_dots, self.unreadable];
+        others.into_iter().fold(self.correct, f64::max)
+    }
+}

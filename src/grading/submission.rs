@@ -1,0 +1,164 @@
+//! One student's submission, and its grade.
+
+use std::path::PathBuf;
+
+use super::exact::exact_comparison;
+use super::judge_list::{Expectations, Judgement, judge};
+use super::observation::observe;
+use super::policy::Policy;
+use super::verdict::{Finding, Grade, Verdict, Weight};
+use crate::assignment8;
+use crate::photon_list::error::ListError;
+use crate::photon_list::reader::{self, PhotonList};
+
+/// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with ten
+/// million photons and every mistake at once has fewer than this.
+pub const MOST_RECORDS: usize = 5_000_000;
+
+/// What one student handed in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Submission {
+    /// What it is called in the grade.
+    pub name: String,
+    /// The photon list, if there is one.
+    pub list: Option<PathBuf>,
+    /// The picture, if there is one.
+    pub picture: Option<PathBuf>,
+}
+
+/// How submissions are graded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// How many photons were sent out, if the course says so.
+    pub emitted: Option<u64>,
+    /// The seed of lists that follow the reference's streams.
+    pub seed: u64,
+    /// What a verdict is worth.
+    pub policy: Policy,
+}
+
+/// A grade, and what it was given for.
+#[derive(Clone, Debug)]
+pub struct Graded {
+    /// The grade.
+    pub grade: Grade,
+    /// The list, if it could be read, with what was concluded from it.
+    pub list: Option<(PhotonList, Judgement)>,
+}
+
+/// Grades `submission`. Whatever is wrong with its files is part of the grade.
+pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expectations) -> Graded {
+    let Some(path) = &submission.list else {
+        return unreadable(submission, settings, "there is no photon list");
+    };
+    match reader::load_at_most(path, MOST_RECORDS) {
+        Ok(list) => grade_list(submission, list, settings, expectations),
+        // The name of the submission says already which file it is.
+        Err(ListError::Malformed { message, .. }) => unreadable(submission, settings, &message),
+        Err(ListError::Unreadable { source, .. }) => {
+            unreadable(submission, settings, &format!("it cannot be read: {source}"))
+        }
+    }
+}
+
+/// The grade of a submission that is none, for `reason`.
+pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) -> Graded {
+    let finding = Finding {
+        check: "readable",
+        section: None,
+        expected: "a photon list (CSV or PLY, with the columns x, y and z), or a picture"
+            .to_owned(),
+        found: reason.to_owned(),
+        p_value: None,
+        passed: false,
+        weight: Weight::Grave,
+        advice:
+            "Hand in the list that the dump header writes, or the PNG picture as the program wrote \
+                 it."
+            .into(),
+    };
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: None,
+        score: settings.policy.score(Verdict::Unreadable, None, false),
+        verdict: Verdict::Unreadable,
+        misreading: None,
+        misreading_confidence: None,
+        findings: vec![finding],
+    };
+    Graded { grade, list: None }
+}
+
+fn grade_list(
+    submission: &Submission,
+    list: PhotonList,
+    settings: &Settings,
+    expectations: &Expectations,
+) -> Graded {
+    let light = assignment8::create_light().position;
+    let observation = observe(&list, &expectations.places, light);
+    let finite = observation.records as f64 - observation.counts.not_finite;
+    if observation.records > 0 && finite == 0.0 {
+        return unreadable(submission, settings, "no position in the list is a finite number");
+    }
+    if observation.records == 0 {
+        return no_photons(submission, settings);
+    }
+    let by_user = settings.emitted.map(|emitted| emitted as f64);
+    let emitted = by_user.or(observation.emitted_by_intensity);
+    let mut judgement = judge(&observation, emitted, by_user.is_some(), expectations);
+    let exact = exact_comparison(
+        &list,
+        settings,
+        expectations.signatures.max_bounces,
+        emitted.map(|emitted| emitted as u64),
+    );
+    judgement.findings.extend(exact);
+    let misreading = judgement.explanation.as_ref();
+    let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
+    let verdict = match faults().next() {
+        None => Verdict::Correct,
+        Some(_) => Verdict::Incorrect,
+    };
+    let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
+    let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
+        && misreading_id != Some("direct-stored");
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: emitted.map(|emitted| emitted as u64),
+        stored: Some(observation.records),
+        score: settings.policy.score(verdict, misreading_id, is_plausible),
+        verdict,
+        misreading: misreading_id,
+        misreading_confidence: misreading.map(|explanation| explanation.confidence),
+        findings: judgement.findings.clone(),
+    };
+    Graded { grade, list: Some((list, judgement)) }
+}
+
+fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
+    let finding = Finding {
+        check: "photons",
+        section: Some("Photon Storage"),
+        expected: "photons that have bounced".to_owned(),
+        found: "the list is empty".to_owned(),
+        p_value: None,
+        passed: false,
+        weight: Weight::Fault,
+        advice: "Insert a photon where the size of 'path' is larger than 1; check that 'path' grows and \
+                 that TracePhoton calls itself."
+            .into(),
+    };
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: Some(0),
+        score: settings.policy.score(Verdict::NoDots, None, false),
+        verdict: Verdict::NoDots,
+        misreading: None,
+        misreading_confidence: None,
+        findings: vec![finding],
+    };
+    Graded { grade, list: None }
+}

@@ -1,0 +1,269 @@
+//! One step of the reference done in another way, and what is stored then: by the same tracer, which is
+//! given another reading, other materials, other normals, or other random numbers.
+
+use std::ops::Range;
+
+use glam::Vec3;
+
+use crate::assignment8;
+use crate::lanes::LaneTracer;
+use crate::lanes::width::Width;
+use crate::photon_list::record::PhotonRecord;
+use crate::random::photon_random;
+use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
+use crate::rendering::reading::Reading;
+use crate::scene::Scene;
+use crate::scene::material::Material;
+use crate::scene::mesh_object::MeshObject;
+use crate::scene::ray::Ray;
+use crate::scene::triangle::Triangle;
+
+/// How many facets the assignment's scene has.
+pub const FACETS: usize = 12;
+
+/// What decides whether a photon is scattered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Roulette {
+    /// The largest channel of the diffuse response: the handout's.
+    #[default]
+    Largest,
+    /// The mean of its channels.
+    Mean,
+    /// Its red channel.
+    Red,
+    /// Nothing: every photon is scattered.
+    Always,
+}
+
+/// How a direction over the surface is sampled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hemisphere {
+    /// In proportion to the cosine: the handout's.
+    #[default]
+    Cosine,
+    /// Evenly.
+    Uniform,
+    /// With r = u1 instead of its square root, normalised.
+    NoSquareRoot,
+}
+
+/// One step, or none, of the reference done in another way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variation {
+    /// How the handout is read where it leaves something open.
+    pub reading: Reading,
+    /// What decides whether a photon is scattered.
+    pub roulette: Roulette,
+    /// How a direction over the surface is sampled.
+    pub hemisphere: Hemisphere,
+    /// Whether directions from the light come from the whole cube.
+    pub cube_directions: bool,
+    /// Whether photons that come directly from the light are stored.
+    pub direct_stored: bool,
+    /// Whether normals point to the other side.
+    pub flipped_normal: bool,
+    /// How many bounces fewer than allowed.
+    pub fewer_bounces: i32,
+    /// How often a photon may bounce at most, whatever is allowed.
+    pub most_bounces: i32,
+    /// For each facet, the part of its scattered photons that meet it again, by rounding.
+    pub self_hits: [f32; FACETS],
+}
+
+impl Default for Variation {
+    fn default() -> Self {
+        Self {
+            reading: Reading::REFERENCE,
+            roulette: Roulette::Largest,
+            hemisphere: Hemisphere::Cosine,
+            cube_directions: false,
+            direct_stored: false,
+            flipped_normal: false,
+            fewer_bounces: 0,
+            most_bounces: i32::MAX,
+            self_hits: [0.0; FACETS],
+        }
+    }
+}
+
+/// Traces photons of the assignment's scene under one variation.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    variation: Variation,
+    renderer: PhotonMappingRenderer,
+    /// P_r of every facet, before self-hits are accounted for.
+    survival: Vec<f32>,
+}
+
+impl Simulation {
+    /// The run of `emitted` photons with `seed` under `variation`, where photons may bounce
+    /// `max_bounces` times.
+    pub fn new(variation: Variation, seed: u64, emitted: u64, max_bounces: i32) -> Self {
+        let scene = assignment8::create_scene();
+        // A mesh object for every facet, so that each can have a material of its own.
+        let mut mesh_objects: Vec<MeshObject> = Vec::new();
+        let mut triangles = Vec::new();
+        let mut survivals = Vec::new();
+        let turn = if variation.flipped_normal { -1.0 } else { 1.0 };
+        for facet in scene
+            .triangles()
+            .chunk_by(|a, b| (a.parent_mesh_object, a.facet) == (b.parent_mesh_object, b.facet))
+        {
+            let index = mesh_objects.len();
+            let of_model = &scene.mesh_objects()[facet[0].parent_mesh_object];
+            let diffuse = of_model.material.base_diffuse_reflection();
+            let survival = survival(diffuse, variation.roulette);
+            // Of those that survive, some meet their surface again and have to survive once more.
+            let self_hits = variation.self_hits[index];
+            let leaves = survival * (1.0 - self_hits) / (1.0 - survival * self_hits);
+            let material = Material::new(Vec3::splat(leaves));
+            mesh_objects.push(MeshObject { name: of_model.name.clone(), material });
+            survivals.push(survival);
+            triangles.extend(facet.iter().map(|triangle| Triangle {
+                normal: turn * triangle.normal,
+                parent_mesh_object: index,
+                ..*triangle
+            }));
+        }
+        let survival = survivals;
+        let varied = Scene::new(mesh_objects, triangles, scene.lights().to_vec());
+        let mut renderer = assignment8::create_renderer(varied);
+        renderer.reading = variation.reading;
+        renderer.seed = seed;
+        renderer.photon_count = emitted;
+        renderer.max_photon_bounces =
+            (max_bounces - variation.fewer_bounces).min(variation.most_bounces);
+        Self { variation, renderer, survival }
+    }
+
+    /// How many photons all lights send out.
+    pub fn emitted(&self) -> u64 {
+        self.renderer.emitted()
+    }
+
+    /// What the photons numbered `photons` store, on this thread: path after path. The column `surface`
+    /// has the facet.
+    pub fn trace(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        let Variation { hemisphere, cube_directions, direct_stored, self_hits, .. } =
+            self.variation;
+        let is_plain = hemisphere == Hemisphere::Cosine
+            && !cube_directions
+            && !direct_stored
+            && self_hits == [0.0; FACETS]
+            && !self.makes_nan();
+        match LaneTracer::new(&self.renderer, Width::widest()) {
+            Some(lanes) if is_plain => lanes.trace_piece(photons),
+            _ => self.trace_one_by_one(photons),
+        }
+    }
+
+    /// Whether a frame has columns that are not numbers, as that of the wall has.
+    fn makes_nan(&self) -> bool {
+        let frame = crate::rendering::sampling::tangent_frame(Vec3::NEG_X, &self.variation.reading);
+        frame.is_nan()
+    }
+
+    fn trace_one_by_one(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        let mut records = Vec::new();
+        let lights = self.renderer.stored_scene.lights();
+        let (light, intensity) = (&lights[0], lights[0].color / self.renderer.emitted() as f32);
+        let (mut photon_map, mut path) = (Vec::new(), Vec::new());
+        for photon in photons {
+            let mut rand = photon_random(self.renderer.seed, photon);
+            let photon_ray = if self.variation.cube_directions {
+                let cube = [0; 3].map(|_| 2.0 * rand() - 1.0);
+                Ray::new(light.position, Vec3::from_array(cube).normalize())
+            } else {
+                light.generate_random_photon_ray(&mut rand)
+            };
+            photon_map.clear();
+            path.clear();
+            path.push(PathVertex::Light);
+            let mut draws = 0;
+            let mut varied_rand = || {
+                draws += 1;
+                // At every hit the roulette's number is drawn first, then u1, then u2.
+                if draws % 3 == 2 { self.vary_u1(rand()) } else { rand() }
+            };
+            self.renderer.trace_photon(
+                &mut photon_map,
+                &photon_ray,
+                intensity,
+                &mut path,
+                self.renderer.max_photon_bounces,
+                &mut varied_rand,
+            );
+            let has_scattered_last = draws % 3 == 0 && draws > 0;
+            let mut to_light = -photon_ray.ray_direction();
+            let mut bounce = 0;
+            for (place, vertex) in path.iter().enumerate().skip(1) {
+                let PathVertex::Surface(state) = vertex else {
+                    unreachable!("a path has one light, at its start");
+                };
+                let facet = state.primitive(&self.renderer.stored_scene).parent_mesh_object;
+                let record = |to_light, bounce| PhotonRecord {
+                    position: state.intersection_point(),
+                    intensity,
+                    to_light,
+                    photon: photon as u32,
+                    bounce,
+                    surface: facet as u16,
+                };
+                if place > 1 {
+                    to_light = photon_map[place - 2].to_light_ray.ray_direction();
+                }
+                if place > 1 || self.variation.direct_stored {
+                    records.push(record(to_light, bounce));
+                }
+                bounce += 1;
+                let again = self.survival[facet] * self.variation.self_hits[facet];
+                while again > 0.0 && rand() < again {
+                    records.push(record(to_light, bounce));
+                    bounce += 1;
+                }
+            }
+            // Where the direction is not a number, the framework's tests find a hit that is not one.
+            let mut is_lost = self.makes_nan()
+                && has_scattered_last
+                && records.last().is_none_or(|_| last_is_parallel(&path, &self.renderer));
+            while is_lost {
+                let position = Vec3::NAN;
+                let photon = photon as u32;
+                records.push(PhotonRecord { position, photon, bounce, ..PhotonRecord::ABSENT });
+                bounce += 1;
+                is_lost = rand() < self.survival[0];
+            }
+        }
+        records
+    }
+
+    /// The u1 with which equations (2) to (6) give the direction that the variation takes for `u1`.
+    fn vary_u1(&self, u1: f32) -> f32 {
+        match self.variation.hemisphere {
+            Hemisphere::Cosine => u1,
+            // z = u1, and z = sqrt(1 - u1) of the handout.
+            Hemisphere::Uniform => 1.0 - u1 * u1,
+            // (u1, sqrt(1 - u1)) normalised; the square of its first is the u1 that gives it.
+            Hemisphere::NoSquareRoot => u1 * u1 / (u1 * u1 + 1.0 - u1),
+        }
+    }
+}
+
+/// Whether the path's last surface has the normal along which the frame has no length.
+fn last_is_parallel(path: &[PathVertex], renderer: &PhotonMappingRenderer) -> bool {
+    match path.last() {
+        Some(PathVertex::Surface(state)) => {
+            state.compute_normal(&renderer.stored_scene).x.abs() > 0.999
+        }
+        _ => false,
+    }
+}
+
+fn survival(diffuse: Vec3, roulette: Roulette) -> f32 {
+    match roulette {
+        Roulette::Largest => diffuse.max_element(),
+        Roulette::Mean => diffuse.element_sum() / 3.0,
+        Roulette::Red => diffuse.x,
+        Roulette::Always => 1.0,
+    }
+}

@@ -1,0 +1,81 @@
+//! What a grade says.
+
+use std::borrow::Cow;
+
+use serde::Serialize;
+
+/// The verdict on a submission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// What the handout asks for, in one of its fair readings.
+    Correct,
+    /// Something else.
+    Incorrect,
+    /// Nothing was stored, or nothing is shown.
+    NoDots,
+    /// Not a submission.
+    Unreadable,
+}
+
+/// How much a finding weighs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Weight {
+    /// It makes a submission incorrect, and its photons can be neither where nor what they are.
+    Grave,
+    /// It makes a submission incorrect.
+    Fault,
+    /// It is worth saying, and costs nothing.
+    Remark,
+}
+
+/// What one check found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// The check's name.
+    pub check: &'static str,
+    /// The section of the handout that it is about.
+    pub section: Option<&'static str>,
+    /// What the handout leads to expect.
+    pub expected: String,
+    /// What was found.
+    pub found: String,
+    /// The chance of finding this, or something stranger, in a correct submission, with regard to how
+    /// much was looked at; nothing for what is certain.
+    pub p_value: Option<f64>,
+    /// Whether it is as it should be.
+    pub passed: bool,
+    /// What it weighs if it is not.
+    pub weight: Weight,
+    /// What to look at.
+    pub advice: Cow<'static, str>,
+}
+
+/// The grade of one submission.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Grade {
+    /// Its name.
+    pub submission: String,
+    /// How many photons were sent out, if that is known.
+    pub emitted: Option<u64>,
+    /// How many photons were stored; nothing when only a picture was handed in.
+    pub stored: Option<u64>,
+    /// By the handout's rubric, or the course's.
+    pub score: f64,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The misreading that explains it, if a known one does.
+    pub misreading: Option<&'static str>,
+    /// How sure that is, among the known ones.
+    pub misreading_confidence: Option<f64>,
+    /// In the order in which they are to be read.
+    pub findings: Vec<Finding>,
+}
+
+impl Finding {
+    /// Whether it speaks against the submission.
+    pub fn is_fault(&self) -> bool {
+        !self.passed && self.weight != Weight::Remark
+    }
+}
