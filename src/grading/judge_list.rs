@@ -16,7 +16,9 @@ use crate::compare::verdict::Section;
 pub const SIGNIFICANCE: f64 = 1e-5;
 /// By which part of itself an expectation may be off for reasons that a course cannot fault: where
 /// exactly a ray starts, and how far off the surface a position is stored.
-const LEEWAY: f64 = 0.008;
+const LEEWAY: f64 = 0.012;
+/// The same for cells, of which a larger part lies along an edge.
+const LEEWAY_OF_CELLS: f64 = 0.025;
 /// Cells are joined until so many photons are expected in each: below, counts are too far from normal.
 const LEAST_EXPECTED: f64 = 25.0;
 /// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
@@ -255,7 +257,7 @@ fn attempt(
         found: farthest(&counts, &law, size, |class| places.class_name(class)),
     });
 
-    let of_cells = signature.law_of_cells(&expectations.signatures.correlation, LEEWAY);
+    let of_cells = signature.law_of_cells(&expectations.signatures.correlation, LEEWAY_OF_CELLS);
     let groups = expectations.places.joined_cells(&of_cells.mean, size, LEAST_EXPECTED);
     let count = groups.iter().max().map_or(0, |last| last + 1);
     let joined_law = of_cells.grouped(&groups, count);
@@ -300,7 +302,12 @@ fn law_of(signature: &Signature) -> Law {
 fn without_last(law: &Law, counts: &[f64]) -> (Law, Vec<f64>) {
     let last = counts.len() - 1;
     let covariance = law.covariance[..last].iter().map(|row| row[..last].to_vec()).collect();
-    let law = Law { mean: law.mean[..last].to_vec(), covariance, ..*law };
+    let law = Law {
+        mean: law.mean[..last].to_vec(),
+        leeway: law.leeway[..last].to_vec(),
+        covariance,
+        measured_with: law.measured_with,
+    };
     (law, counts[..last].to_vec())
 }
 

@@ -21,7 +21,7 @@ const MANY_REPEATED: f64 = 0.03;
 /// Of more bounces than these, hardly a path has the last.
 const SMALL_LIMIT: i32 = 12;
 /// With how many photons self-hits are measured.
-const PHOTONS_FOR_SELF_HITS: u64 = 1_000_000;
+const PHOTONS_FOR_SELF_HITS: u64 = 400_000;
 
 /// A misreading that explains a submission.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,8 +45,7 @@ pub struct Known<'a> {
     pub max_bounces: i32,
 }
 
-/// The misreading that explains `observation`, if one does and no other does as well. `unread` is the
-/// likelihood of the best fair reading, with the same leeway.
+/// The misreading that explains `observation`, if one does and no other does as well.
 pub fn name(
     observation: &Observation,
     emitted: Option<f64>,
@@ -60,6 +59,9 @@ pub fn name(
     let straight = observation
         .to_light
         .map(|to_light| to_light.to_the_light as f64 / to_light.set.max(1) as f64);
+    let is_short = observation.bounces.is_some_and(|[first, last]| {
+        i32::from(last - first) + 1 < known.max_bounces && known.max_bounces <= SMALL_LIMIT
+    });
     let is_possible = |hypothesis: &Hypothesis| match hypothesis.id {
         "nan-frame" => of_nan > 0.2,
         "transposed-frame" | "flipped-normal" => of_nan == 0.0,
@@ -69,7 +71,12 @@ pub fn name(
         "direct-stored" => {
             of_nan == 0.0 && repeated < MANY_REPEATED && straight.is_none_or(|part| part > 0.5)
         }
-        _ => of_nan == 0.0 && repeated < MANY_REPEATED && straight.is_none_or(|part| part < 0.01),
+        _ => {
+            of_nan == 0.0
+                && repeated < MANY_REPEATED
+                && straight.is_none_or(|part| part < 0.01)
+                && !is_short
+        }
     };
     let mut candidates: Vec<Explanation> = Vec::new();
     let mut consider = |hypothesis: &Hypothesis, signature: &Signature, leeway: f64| {

@@ -15,6 +15,8 @@ use crate::photon_list::record::PhotonRecord;
 
 /// How many photons a thread traces at once.
 const PIECE: u64 = 1 << 16;
+/// By which part of itself the number of photons in corners may be off.
+const LEEWAY_OF_CORNERS: f64 = 0.5;
 /// The seed of the signatures. Submissions that follow our streams have another.
 const SEED: u64 = 0x9_2019;
 
@@ -96,13 +98,13 @@ impl Signatures {
 }
 
 impl Signature {
-    /// The law of the classes.
+    /// The law of the classes, where the mean of a facet may be off by the part `leeway` of itself.
     pub fn law_of_classes(&self, leeway: f64) -> Law {
         Law {
             mean: self.classes.clone(),
             covariance: self.covariance.clone(),
             measured_with: self.emitted,
-            leeway,
+            leeway: leeway_of_classes(leeway, self.classes.len()),
         }
     }
 
@@ -116,7 +118,7 @@ impl Signature {
             mean: self.cells.clone(),
             covariance: covariance.collect(),
             measured_with: self.emitted,
-            leeway,
+            leeway: vec![leeway; self.cells.len()],
         }
     }
 
@@ -128,8 +130,21 @@ impl Signature {
             let entry = |b| if a == b { mean[a] * (1.0 - mean[a]) } else { -mean[a] * mean[b] };
             (0..mean.len()).map(entry).collect()
         });
-        Law { covariance: covariance.collect(), mean, measured_with: self.emitted, leeway }
+        Law {
+            covariance: covariance.collect(),
+            leeway: leeway_of_classes(leeway, mean.len()),
+            mean,
+            measured_with: self.emitted,
+        }
     }
+}
+
+/// How many photons are close to a corner depends on how far off the surface they are stored, if that is
+/// along the photon's ray.
+fn leeway_of_classes(leeway: f64, classes: usize) -> Vec<f64> {
+    let mut of_classes = vec![leeway; classes];
+    of_classes[classes - 2] = LEEWAY_OF_CORNERS;
+    of_classes
 }
 
 /// The classes of `counts`.

@@ -30,9 +30,9 @@ pub struct Law {
     pub covariance: Matrix,
     /// With how many photons the means were themselves measured.
     pub measured_with: f64,
-    /// By which part of itself a mean may be off for reasons that a course cannot fault, such as
-    /// where exactly a ray starts.
-    pub leeway: f64,
+    /// By which part of itself each mean may be off for reasons that a course cannot fault, such as
+    /// where exactly a ray starts, or how far off its surface a position is stored.
+    pub leeway: Vec<f64>,
 }
 
 /// Holds `counts` against `law` for `emitted` photons, or for as many as fit best: the test of Wald.
@@ -83,22 +83,25 @@ impl Law {
             .collect();
         for (at, mean) in self.mean.iter().enumerate() {
             // A count of less than one is as good as one.
-            covariance[at][at] += (self.leeway * emitted * mean).powi(2) + 0.1;
+            covariance[at][at] += (self.leeway[at] * emitted * mean).powi(2) + 0.1;
         }
         covariance
     }
 
     /// The law of the sums of counts that have the same number in `groups`, of which there are `count`.
     pub fn grouped(&self, groups: &[usize], count: usize) -> Self {
-        let mut mean = vec![0.0; count];
         let mut covariance = vec![vec![0.0; count]; count];
         for (a, group) in groups.iter().enumerate() {
-            mean[*group] += self.mean[a];
             for (b, other) in groups.iter().enumerate() {
                 covariance[*group][*other] += self.covariance[a][b];
             }
         }
-        Self { mean, covariance, ..*self }
+        let mean = grouped(&self.mean, groups, count);
+        // What one count is short of, its neighbours may have: the larger the group, the less is left.
+        let off = self.mean.iter().zip(&self.leeway).map(|(mean, leeway)| (mean * leeway).powi(2));
+        let off = grouped(&off.collect::<Vec<_>>(), groups, count);
+        let leeway = mean.iter().zip(&off).map(|(mean, off)| off.sqrt() / mean.max(1e-300));
+        Self { leeway: leeway.collect(), mean, covariance, measured_with: self.measured_with }
     }
 }
 

@@ -1,6 +1,7 @@
 //! One step of the reference done in another way, and what is stored then: by the same tracer, which is
 //! given another reading, other materials, other normals, or other random numbers.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use glam::Vec3;
@@ -153,8 +154,20 @@ impl Simulation {
             && !self.makes_nan();
         match LaneTracer::new(&self.renderer, Width::widest()) {
             Some(lanes) if is_plain => lanes.trace_piece(photons),
-            _ => self.trace_one_by_one(photons),
+            _ => self.trace_one_by_one(photons, |photon| photon_random(self.renderer.seed, photon)),
         }
+    }
+
+    /// As [`Self::trace`], but with `numbers`, each in [0, 1), one after another for all photons: as a
+    /// program has it that knows nothing of streams.
+    pub fn trace_with(
+        &self,
+        photons: Range<u64>,
+        numbers: impl Iterator<Item = f32>,
+    ) -> Vec<PhotonRecord> {
+        let numbers = RefCell::new(numbers);
+        let next = || numbers.borrow_mut().next().expect("a generator does not end");
+        self.trace_one_by_one(photons, |_| next)
     }
 
     /// Whether a frame has columns that are not numbers, as that of the wall has.
@@ -163,13 +176,17 @@ impl Simulation {
         frame.is_nan()
     }
 
-    fn trace_one_by_one(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+    fn trace_one_by_one<R: FnMut() -> f32>(
+        &self,
+        photons: Range<u64>,
+        generator: impl Fn(u64) -> R,
+    ) -> Vec<PhotonRecord> {
         let mut records = Vec::new();
         let lights = self.renderer.stored_scene.lights();
         let (light, intensity) = (&lights[0], lights[0].color / self.renderer.emitted() as f32);
         let (mut photon_map, mut path) = (Vec::new(), Vec::new());
         for photon in photons {
-            let mut rand = photon_random(self.renderer.seed, photon);
+            let mut rand = generator(photon);
             let photon_ray = if self.variation.cube_directions {
                 let cube = [0; 3].map(|_| 2.0 * rand() - 1.0);
                 Ray::new(light.position, Vec3::from_array(cube).normalize())

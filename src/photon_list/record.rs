@@ -120,7 +120,7 @@ impl Value<'_> {
 }
 
 /// Which columns besides the position a list has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Columns {
     /// `intensity_r`, `intensity_g` and `intensity_b`.
     pub intensity: bool,

@@ -1,0 +1,243 @@
+//! How good the grader is with lists: how often it calls correct ones incorrect, and which misreadings it
+//! finds and names. Prints the tables of `golden/grading.md`.
+//!
+//! `cargo run --release --example grading_table -- [--false-alarms N] [--seeds N]`
+
+use glam::{DVec3, Vec3};
+use photon_mapping::assignment8::{create_light, create_scene};
+use photon_mapping::grading::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
+use photon_mapping::grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
+use photon_mapping::grading::observation::observe;
+use photon_mapping::grading::places::{Place, Places};
+use photon_mapping::grading::signature::{Effort, Signatures};
+use photon_mapping::grading::variation::{Simulation, Variation};
+use photon_mapping::photon_list::reader::PhotonList;
+use photon_mapping::photon_list::record::{Columns, PhotonRecord};
+use photon_mapping::random::photon_random;
+use photon_mapping::rendering::reading::{Offset, Reading, TangentBasis};
+use rayon::prelude::*;
+
+/// What a list tells besides positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Content {
+    /// Nothing, and the number of photons sent out is not known.
+    PositionsAlone,
+    /// Nothing, but the course knows the number.
+    PositionsAndNumber,
+    /// All columns.
+    Everything,
+}
+
+const CONTENTS: [Content; 3] =
+    [Content::PositionsAlone, Content::PositionsAndNumber, Content::Everything];
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let (mut alarms, mut seeds) = (20_000, 100);
+    while let (Some(option), Some(value)) = (arguments.next(), arguments.next()) {
+        let number = value.parse().expect("a whole number");
+        match option.as_str() {
+            "--false-alarms" => alarms = number,
+            "--seeds" => seeds = number,
+            _ => panic!("expected --false-alarms N or --seeds N, found {option}"),
+        }
+    }
+    let places = Places::new(&create_scene());
+    let expectations = Expectations::new(places.clone(), Signatures::of_assignment8());
+    println!("# How good the grader is with lists\n");
+    false_alarms(alarms, &expectations);
+    let small_limit = Signatures::measure(&places, 3, Effort::QUICK);
+    let with_small_limit = Expectations::new(places, small_limit);
+    detection(seeds, &expectations, &with_small_limit);
+}
+
+/// Numbers for the settings of a simulated submission.
+struct Settings(Box<dyn FnMut() -> f32 + Send>);
+
+impl Settings {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(f64::from((self.0)()))
+    }
+
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[((self.0)() * choices.len() as f32) as usize]
+    }
+}
+
+fn false_alarms(count: u64, expectations: &Expectations) {
+    // Most of the time goes to the largest lists, so they are fewer.
+    let decades = [(1e4, 1e5, count / 2), (1e5, 1e6, 7 * count / 20), (1e6, 1e7, 3 * count / 20)];
+    println!("## Correct submissions called incorrect\n");
+    println!("| sent out | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
+    println!("|---|---|---|---|---|---|");
+    let mut all = [0; 5];
+    for (decade, (low, high, count)) in decades.into_iter().enumerate() {
+        let p_values: Vec<(f64, bool)> = (0..count)
+            .into_par_iter()
+            .map(|index| {
+                correct_submission(decade as u64 * 1_000_000 + index, low, high, expectations)
+            })
+            .collect();
+        let below = |limit: f64| p_values.iter().filter(|(p, _)| *p < limit).count();
+        let row = [
+            p_values.len(),
+            below(1e-2),
+            below(1e-3),
+            below(1e-4),
+            p_values.iter().filter(|(_, is_alarm)| *is_alarm).count(),
+        ];
+        println!("| {low:.0e} to {high:.0e} | {} |", row.map(|n| n.to_string()).join(" | "));
+        all.iter_mut().zip(row).for_each(|(sum, n)| *sum += n);
+    }
+    println!("| all | {} |\n", all.map(|n| n.to_string()).join(" | "));
+}
+
+/// The p-value of a correct submission, and whether it is called incorrect.
+fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectations) -> (f64, bool) {
+    let mut settings = Settings(Box::new(photon_random(148_000, index)));
+    let emitted = settings.between(low, high) as u64;
+    let reading = Reading {
+        tangent_basis: settings
+            .one_of(&[TangentBasis::Normalised, TangentBasis::LetterOfTheHandout]),
+        fallback_threshold: settings
+            .one_of(&[0.99, 0.999, 0.95, 0.9, 0.8, 0.957, 0.9545, 0.5, 0.2]),
+        fallback_axis: settings.one_of(&[Vec3::Y, Vec3::Z]),
+        offset: match settings.one_of(&[0, 1, 2]) {
+            0 => Reading::REFERENCE.offset,
+            1 => Offset::AlongNormal(settings.between(5e-7, 1e-3) as f32),
+            _ => Offset::AlongDirection(settings.between(1e-5, 1e-3) as f32),
+        },
+    };
+    let variation = Variation { reading, ..Variation::default() };
+    let simulation = Simulation::new(variation, 7_000_000 + index, emitted, 1000);
+    let other_generator = emitted <= 200_000 && settings.one_of(&[true, false]);
+    let mut records = if other_generator {
+        simulation.trace_with(0..emitted, Drand48::new(index))
+    } else {
+        simulation.trace(0..emitted)
+    };
+    let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
+    shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
+    let content = settings.one_of(&CONTENTS);
+    let judgement = judged(records, emitted, content, expectations);
+    let p_values = judgement.findings.iter().filter(|finding| finding.check != "bounces");
+    let smallest = p_values.filter_map(|finding| finding.p_value).fold(1.0, f64::min);
+    let alarm = judgement.findings.iter().find(|finding| finding.is_fault());
+    if let Some(alarm) = alarm {
+        eprintln!("false alarm {index}: {emitted} {content:?} {off} {reading:?}: {alarm:?}");
+    }
+    (smallest, alarm.is_some())
+}
+
+/// The generator behind C's `drand48`.
+struct Drand48(u64);
+
+impl Drand48 {
+    fn new(seed: u64) -> Self {
+        Self((seed << 16) | 0x330E)
+    }
+}
+
+impl Iterator for Drand48 {
+    type Item = f32;
+
+    fn next(&mut self) -> Option<f32> {
+        self.0 = (self.0.wrapping_mul(0x5_DEEC_E66D).wrapping_add(0xB)) & ((1 << 48) - 1);
+        Some((self.0 >> 24) as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+/// Moves positions off their surface by `off`: along the normal, or back to where they came from.
+fn shift(records: &mut [PhotonRecord], off: f32, along_normal: bool, places: &Places) {
+    if off == 0.0 {
+        return;
+    }
+    for record in records {
+        let position = record.position.as_dvec3();
+        let way = match places.place(position) {
+            Place::Cell { facet, .. } | Place::Corner { facet } if along_normal => {
+                places.facets[facet].normal.as_vec3()
+            }
+            _ => record.to_light,
+        };
+        record.position += off * way;
+    }
+}
+
+fn judged(
+    mut records: Vec<PhotonRecord>,
+    emitted: u64,
+    content: Content,
+    expectations: &Expectations,
+) -> Judgement {
+    let has_all = content == Content::Everything;
+    let columns = Columns {
+        intensity: has_all,
+        to_light: has_all,
+        photon: false,
+        bounce: has_all,
+        surface: false,
+    };
+    if !has_all {
+        records.iter_mut().for_each(|record| {
+            *record = PhotonRecord { position: record.position, ..PhotonRecord::ABSENT };
+        });
+    }
+    let list = PhotonList { columns, records };
+    let light: DVec3 = create_light().position;
+    let observation = observe(&list, &expectations.places, light);
+    let by_user = (content == Content::PositionsAndNumber).then_some(emitted as f64);
+    let emitted = by_user.or(observation.emitted_by_intensity);
+    judge(&observation, emitted, by_user.is_some(), expectations)
+}
+
+fn detection(seeds: u64, expectations: &Expectations, with_small_limit: &Expectations) {
+    println!("## Misreadings found and named, of {seeds} seeds at 200,000 photons sent out\n");
+    println!(
+        "A list is called incorrect below p = {SIGNIFICANCE:.0e}; each cell has how many were, and \
+              how many of them were named rightly, wrongly, or not at all.\n"
+    );
+    println!("| misreading | {} |", CONTENTS.map(|content| format!("{content:?}")).join(" | "));
+    println!("|---|---|---|---|");
+    let mut hypotheses = vec![fair_readings().remove(0), fair_readings().remove(1)];
+    // As the framework's rounding has it: less where a plane lies along the axes.
+    let sides = [0.2, 0.6, 0.6, 0.6, 0.6, 0.3, 0.2, 0.6, 0.6, 0.6, 0.6, 0.15];
+    hypotheses.push(no_offset(sides));
+    hypotheses.push(no_offset([0.45; 12]));
+    hypotheses.extend(misreadings());
+    for hypothesis in &hypotheses {
+        let expectations =
+            if hypothesis.id == "bounce-off-by-one" { with_small_limit } else { expectations };
+        let cells = CONTENTS.map(|content| cell(hypothesis, content, seeds, expectations));
+        println!("| {} ({}) | {} |", hypothesis.id, hypothesis.title, cells.join(" | "));
+    }
+}
+
+fn cell(
+    hypothesis: &Hypothesis,
+    content: Content,
+    seeds: u64,
+    expectations: &Expectations,
+) -> String {
+    const EMITTED: u64 = 200_000;
+    let max_bounces = expectations.signatures.max_bounces;
+    let named: Vec<(bool, Option<&str>)> = (0..seeds)
+        .into_par_iter()
+        .map(|seed| {
+            let seed = 9_000_000 + seed;
+            let simulation = Simulation::new(hypothesis.variation, seed, EMITTED, max_bounces);
+            let judgement = judged(simulation.trace(0..EMITTED), EMITTED, content, expectations);
+            let is_incorrect = judgement.findings.iter().any(|finding| finding.is_fault());
+            (is_incorrect, judgement.explanation.map(|explanation| explanation.hypothesis.id))
+        })
+        .collect();
+    let found = named.iter().filter(|(is_incorrect, _)| *is_incorrect).count();
+    let right = named.iter().filter(|(_, id)| *id == Some(hypothesis.id)).count();
+    let wrong: Vec<&str> =
+        named.iter().filter_map(|(_, id)| id.filter(|id| *id != hypothesis.id)).collect();
+    let mut kinds = wrong.clone();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let not_named = found.saturating_sub(right + wrong.len());
+    format!("{found}: {right} / {} {} / {not_named}", wrong.len(), kinds.join(" "))
+}

@@ -1,0 +1,363 @@
+//! The grader's judgement of lists, through the library.
+
+use std::sync::LazyLock;
+
+use glam::{DVec3, Vec3};
+use photon_mapping::accuracy::table::ExpectedTable;
+use photon_mapping::assignment8::{create_light, create_scene};
+use photon_mapping::grading::hypotheses::{
+    Hypothesis, fair_readings, misreadings, no_offset, to_the_letter,
+};
+use photon_mapping::grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
+use photon_mapping::grading::observation::{Counts, Observation, observe};
+use photon_mapping::grading::places::{Place, Places};
+use photon_mapping::grading::policy::Policy;
+use photon_mapping::grading::signature::{Effort, Signatures, classes, measure};
+use photon_mapping::grading::statistics::{Law, corrected, fit, normal_tails, towards};
+use photon_mapping::grading::variation::{Hemisphere, Roulette, Simulation, Variation};
+use photon_mapping::grading::verdict::{Verdict, Weight};
+use photon_mapping::photon_list::reader::PhotonList;
+use photon_mapping::photon_list::record::{Columns, PhotonRecord};
+use photon_mapping::random::photon_random;
+
+const EMITTED: u64 = 200_000;
+
+static PLACES: LazyLock<Places> = LazyLock::new(|| Places::new(&create_scene()));
+static EXPECTATIONS: LazyLock<Expectations> =
+    LazyLock::new(|| Expectations::new(PLACES.clone(), Signatures::of_assignment8()));
+
+fn records(variation: Variation, seed: u64, emitted: u64) -> Vec<PhotonRecord> {
+    Simulation::new(variation, seed, emitted, 1000).trace(0..emitted)
+}
+
+fn observed(records: Vec<PhotonRecord>, columns: Columns) -> Observation {
+    observe(&PhotonList { columns, records }, &PLACES, create_light().position)
+}
+
+/// What is seen of positions alone.
+fn positions_of(records: &[PhotonRecord]) -> Observation {
+    let bare =
+        |record: &PhotonRecord| PhotonRecord { position: record.position, ..PhotonRecord::ABSENT };
+    observed(records.iter().map(bare).collect(), Columns::default())
+}
+
+fn is_incorrect(judgement: &Judgement) -> bool {
+    judgement.findings.iter().any(|finding| finding.is_fault())
+}
+
+fn name(judgement: &Judgement) -> Option<&str> {
+    judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+}
+
+#[test]
+fn kept_signatures_are_those_of_the_tracer() {
+    let kept = Signatures::of_assignment8();
+    let check = |hypothesis: &Hypothesis, kept: &_, emitted| {
+        let (measured, _) = measure(hypothesis, &PLACES, emitted, 1000);
+        let kept: &photon_mapping::grading::signature::Signature = kept;
+        let counts: Vec<f64> = measured.classes.iter().map(|mean| mean * emitted as f64).collect();
+        let p_value = fit(&counts, &kept.law_of_classes(0.0), Some(emitted as f64)).p_value;
+        assert!(p_value > 1e-6, "{}: {p_value:e}", hypothesis.title);
+    };
+    assert_eq!(kept.fair.len(), fair_readings().len());
+    for (hypothesis, kept) in fair_readings().iter().zip(&kept.fair) {
+        check(hypothesis, kept, 400_000);
+    }
+    assert_eq!(kept.misreadings.len(), misreadings().len());
+    for (hypothesis, kept) in misreadings().iter().zip(&kept.misreadings) {
+        check(hypothesis, kept, 40_000);
+    }
+}
+
+#[test]
+fn the_reference_s_signature_agrees_with_the_oracle() {
+    let signature = &Signatures::of_assignment8().fair[0];
+    let oracle = ExpectedTable::of_assignment8();
+    let total: f64 = signature.classes.iter().sum();
+    // The standard deviation of the stored total is 316 per million photons and root million.
+    let deviation = 0.316 / signature.emitted.sqrt();
+    assert!((total - oracle.total.stored).abs() < 4.0 * deviation, "{total}");
+    for (bounce, of_bounce) in signature.by_bounce.iter().enumerate() {
+        let (mean, expected) = (of_bounce.iter().sum::<f64>(), oracle.total.hits[bounce + 1]);
+        let deviation = (expected / signature.emitted).sqrt();
+        assert!((mean - expected).abs() < 4.0 * deviation, "bounce {bounce}: {mean} {expected}");
+    }
+}
+
+#[test]
+fn every_photon_of_the_reference_has_its_place() {
+    let records = records(Variation::default(), 3, 100_000);
+    for record in &records {
+        match PLACES.place(record.position.as_dvec3()) {
+            // Of a simulation, the column has the facet.
+            Place::Cell { facet, .. } | Place::Corner { facet } => {
+                assert_eq!(facet, usize::from(record.surface), "{record:?}");
+            }
+            place => panic!("{place:?}: {record:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_position_off_its_surface_stays_in_its_place() {
+    for record in records(Variation::default(), 4, 50_000) {
+        let position = record.position.as_dvec3();
+        let Place::Cell { facet, cell } = PLACES.place(position) else { continue };
+        for off in [-7e-3, -1e-3, 1e-3, 7e-3] {
+            let moved = position + off * PLACES.facets[facet].normal;
+            assert_eq!(PLACES.place(moved), Place::Cell { facet, cell }, "{record:?} {off}");
+        }
+    }
+}
+
+#[test]
+fn places_off_the_scene_are_told() {
+    let place = |x, y, z| PLACES.place(DVec3::new(x, y, z));
+    assert_eq!(place(0.0, 0.0, 0.02), Place::OffSurface);
+    assert_eq!(place(f64::NAN, 0.0, 0.0), Place::NotFinite);
+    assert_eq!(place(1e300, f64::INFINITY, 0.0), Place::NotFinite);
+    // In the middle of each box's foot, which the floor runs under.
+    assert_eq!(place(0.33, -0.37, 0.0), Place::Footprint);
+    assert_eq!(place(-0.33, 0.29, 0.001), Place::Footprint);
+    assert!(matches!(place(-0.8, -0.8, 0.0), Place::Cell { .. }));
+    // Where the floor meets the wall.
+    assert!(matches!(place(0.995, 0.0, 0.0), Place::Corner { .. }));
+}
+
+#[test]
+fn cells_of_a_facet_cover_it_evenly() {
+    let mut counts = Counts::new(&PLACES);
+    let mut rand = photon_random(1, 1);
+    let floor = PLACES.facets.len() - 1;
+    for _ in 0..100_000 {
+        let (x, y) = (2.0 * rand() - 1.0, 2.0 * rand() - 1.0);
+        counts.add(PLACES.place(DVec3::new(x.into(), y.into(), 0.0)));
+    }
+    let first = PLACES.facets[floor].first_cell;
+    let corner_cells = [first, first + 3, first + 12];
+    for cell in corner_cells {
+        // A sixteenth each, but for the margin along the wall.
+        assert!((6250.0 - counts.cells[cell]).abs() < 450.0, "{cell}: {}", counts.cells[cell]);
+    }
+}
+
+#[test]
+fn wald_s_distance_follows_its_law() {
+    // Two correlated counts: u + v and u, with u and v binomial.
+    let law = Law {
+        mean: vec![0.3, 0.2],
+        covariance: vec![vec![0.25, 0.16], vec![0.16, 0.16]],
+        measured_with: 1e12,
+        leeway: vec![0.0; 2],
+    };
+    let mut rand = photon_random(2, 2);
+    let (mut below, mut far, rounds) = (0, 0, 2000);
+    for _ in 0..rounds {
+        let (mut u, mut v) = (0.0, 0.0);
+        for _ in 0..1000 {
+            u += f64::from(u8::from(rand() < 0.2));
+            v += f64::from(u8::from(rand() < 0.1));
+        }
+        let p_value = fit(&[u + v, u], &law, Some(1000.0)).p_value;
+        below += i32::from(p_value < 0.1);
+        far += i32::from(towards(&[u + v, u], &law, &[0.4, 0.2], Some(1000.0)).abs() > 1.645);
+    }
+    // 200 are expected, with a standard deviation of 13.
+    assert!((140..260).contains(&below), "{below}");
+    assert!((140..260).contains(&far), "{far}");
+}
+
+#[test]
+fn of_an_unknown_size_the_shape_alone_counts() {
+    let law = Law {
+        mean: vec![0.01, 0.02, 0.03],
+        covariance: vec![vec![0.01, 0.0, 0.0], vec![0.0, 0.02, 0.0], vec![0.0, 0.0, 0.03]],
+        measured_with: 1e12,
+        leeway: vec![0.0; 3],
+    };
+    let twice = fit(&[2000.0, 4000.0, 6000.0], &law, None);
+    assert!(twice.p_value > 0.99 && (twice.emitted - 200_000.0).abs() < 100.0, "{twice:?}");
+    assert!(fit(&[2000.0, 4000.0, 6000.0], &law, Some(100_000.0)).p_value < 1e-100);
+    assert!(fit(&[2300.0, 4000.0, 5700.0], &law, None).p_value < 1e-6);
+    // Nothing is left of a way that leads to more of the same.
+    let more = towards(&[2000.0, 4100.0, 5900.0], &law, &[0.02, 0.04, 0.06], None);
+    assert!(more.abs() < 1e-6, "{more}");
+}
+
+#[test]
+fn corrections_and_tails_are_the_textbooks() {
+    assert!((normal_tails(1.959_964) - 0.05).abs() < 1e-6);
+    assert!((corrected(0.05, 2) - 0.0975).abs() < 1e-12);
+    assert!((corrected(1e-20, 10) / 1e-19 - 1.0).abs() < 1e-9);
+    assert!((corrected(1.0, 3) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn fair_readings_are_correct_at_any_size() {
+    for (index, hypothesis) in fair_readings().iter().enumerate() {
+        for emitted in [10_000, 200_000, 1_000_000] {
+            let of_reading = records(hypothesis.variation, 50 + index as u64, emitted);
+            let observation = positions_of(&of_reading);
+            for known in [None, Some(emitted as f64)] {
+                let judgement = judge(&observation, known, known.is_some(), &EXPECTATIONS);
+                assert!(
+                    !is_incorrect(&judgement),
+                    "{}, {emitted}: {:#?}",
+                    hypothesis.title,
+                    judgement.findings
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn misreadings_are_named_from_positions_alone() {
+    let sides = [0.2, 0.6, 0.6, 0.6, 0.6, 0.3, 0.2, 0.6, 0.6, 0.6, 0.6, 0.15];
+    let mut all = misreadings();
+    // With a limit of its own, below.
+    all.retain(|hypothesis| hypothesis.id != "bounce-off-by-one");
+    all.push(no_offset(sides));
+    for hypothesis in all {
+        let observation = positions_of(&records(hypothesis.variation, 60, EMITTED));
+        let judgement = judge(&observation, Some(EMITTED as f64), true, &EXPECTATIONS);
+        assert!(is_incorrect(&judgement), "{}", hypothesis.title);
+        assert_eq!(name(&judgement), Some(hypothesis.id), "{}", hypothesis.title);
+    }
+}
+
+#[test]
+fn a_missing_last_bounce_is_seen_where_the_limit_is_small() {
+    let signatures = Signatures::measure(&PLACES, 3, Effort::QUICK);
+    let expectations = Expectations::new(PLACES.clone(), signatures);
+    let columns = Columns { bounce: true, ..Columns::default() };
+    let judged = |fewer_bounces| {
+        let variation = Variation { fewer_bounces, ..Variation::default() };
+        let records = Simulation::new(variation, 61, EMITTED, 3).trace(0..EMITTED);
+        judge(&observed(records, columns), Some(EMITTED as f64), true, &expectations)
+    };
+    assert!(!is_incorrect(&judged(0)));
+    let short = judged(1);
+    assert!(is_incorrect(&short));
+    assert_eq!(name(&short), Some("bounce-off-by-one"));
+}
+
+#[test]
+fn what_no_misreading_explains_gets_no_name() {
+    let combination = Variation {
+        hemisphere: Hemisphere::Uniform,
+        roulette: Roulette::Mean,
+        ..Variation::default()
+    };
+    let half: Vec<PhotonRecord> = records(Variation::default(), 62, EMITTED)
+        .into_iter()
+        .filter(|record| record.position.x > 0.0)
+        .collect();
+    for records in [records(combination, 63, EMITTED), half] {
+        let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
+        assert!(is_incorrect(&judgement));
+        assert_eq!(name(&judgement), None);
+    }
+}
+
+#[test]
+fn a_wrong_intensity_costs_nothing() {
+    let mut of_reference = records(Variation::default(), 64, EMITTED);
+    of_reference.iter_mut().for_each(|record| record.intensity *= 0.5);
+    let columns = Columns { intensity: true, ..Columns::default() };
+    let observation = observed(of_reference, columns);
+    assert_eq!(observation.emitted_by_intensity, Some(400_000.0));
+    let judgement = judge(&observation, Some(400_000.0), false, &EXPECTATIONS);
+    assert!(!is_incorrect(&judgement), "{:#?}", judgement.findings);
+    let remark = judgement.findings.iter().find(|finding| !finding.passed).expect("a remark");
+    assert_eq!((remark.check, remark.weight), ("number by intensity", Weight::Remark));
+    // By the word of the course, it would be too few.
+    assert!(is_incorrect(&judge(&observation, Some(400_000.0), true, &EXPECTATIONS)));
+}
+
+#[test]
+fn faults_of_to_light_cost_nothing() {
+    let columns = Columns { to_light: true, ..Columns::default() };
+    let faults: [(&str, fn(Vec3) -> Vec3); 3] = [
+        ("to_light set", |_| Vec3::ZERO),
+        ("to_light length", |direction| 2.0 * direction),
+        ("to_light direction", |direction| -direction),
+    ];
+    for (check, fault) in faults {
+        let mut of_reference = records(Variation::default(), 65, EMITTED);
+        of_reference.iter_mut().for_each(|record| record.to_light = fault(record.to_light));
+        let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgement), "{check}: {:#?}", judgement.findings);
+        let remarks: Vec<_> = judgement.findings.iter().filter(|finding| !finding.passed).collect();
+        assert_eq!(remarks.iter().map(|remark| remark.check).collect::<Vec<_>>(), [check]);
+    }
+}
+
+#[test]
+fn photons_straight_from_the_light_are_seen_by_their_direction() {
+    // So few that densities hardly change.
+    let mut of_reference = records(Variation::default(), 66, EMITTED);
+    let light = create_light().position.as_vec3();
+    for record in of_reference.iter_mut().step_by(50) {
+        record.to_light = (light - record.position).normalize();
+    }
+    let columns = Columns { to_light: true, ..Columns::default() };
+    let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+    let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
+    assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
+}
+
+#[test]
+fn a_list_stored_twice_is_incorrect() {
+    let mut twice = records(Variation::default(), 67, EMITTED);
+    twice.extend(twice.clone());
+    let judgement = judge(&positions_of(&twice), None, false, &EXPECTATIONS);
+    let faults: Vec<_> = judgement.findings.iter().filter(|finding| finding.is_fault()).collect();
+    assert!(faults.iter().any(|fault| fault.check == "same place"), "{faults:#?}");
+}
+
+#[test]
+fn too_few_photons_are_not_correct() {
+    let observation = positions_of(&records(Variation::default(), 68, 300));
+    assert!(observation.records > 3);
+    let judgement = judge(&observation, None, false, &EXPECTATIONS);
+    let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
+    assert_eq!(fault.check, "enough photons");
+    // Of 300 sent out, they are as many as they should be.
+    assert!(!is_incorrect(&judge(&observation, Some(300.0), true, &EXPECTATIONS)));
+}
+
+#[test]
+fn the_letter_of_the_handout_is_part_of_the_misreadings() {
+    let mean = misreadings().into_iter().find(|it| it.id == "mean-roulette").expect("is known");
+    let literal = to_the_letter(&mean);
+    assert!(misreadings().contains(&literal));
+}
+
+#[test]
+fn the_same_class_counts_make_the_same_classes() {
+    let of_reference = records(Variation::default(), 69, 50_000);
+    let observation = positions_of(&of_reference);
+    let sum: f64 = classes(&observation.counts, &PLACES).iter().sum();
+    assert_eq!(sum, observation.counts.on_surfaces());
+    assert_eq!(sum as usize, of_reference.len());
+}
+
+#[test]
+fn scores_follow_the_rubric_and_a_course_s_policy() {
+    let rubric = Policy::default();
+    assert_eq!(rubric.score(Verdict::Correct, None, true), 4.0);
+    assert_eq!(rubric.score(Verdict::Incorrect, None, true), 3.0);
+    assert_eq!(rubric.score(Verdict::Incorrect, None, false), 2.0);
+    assert_eq!(rubric.score(Verdict::NoDots, None, false), 1.0);
+    assert_eq!(rubric.score(Verdict::Unreadable, None, false), 0.0);
+    let own: Policy = serde_json::from_str(
+        r#"{"correct": 10, "no-dots": 2, "misreadings": {"mean-roulette": 8.5}}"#,
+    )
+    .expect("a policy");
+    assert_eq!(own.score(Verdict::Correct, None, true), 10.0);
+    assert_eq!(own.score(Verdict::Incorrect, Some("mean-roulette"), true), 8.5);
+    assert_eq!(own.score(Verdict::Incorrect, Some("red-roulette"), true), 3.0);
+    assert!(serde_json::from_str::<Policy>(r#"{"corect": 10}"#).is_err());
+    const { assert!(SIGNIFICANCE < 1e-4) };
+}
