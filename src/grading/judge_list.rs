@@ -94,7 +94,10 @@ pub fn judge(
     };
     let mut findings = plain_findings(observation, places);
     let mut trial = best_trial(observation, emitted, expectations);
-    let is_off = trial.p_value < SIGNIFICANCE || findings.iter().any(Finding::is_fault);
+    let signature = &expectations.signatures.fair[trial.reading];
+    let of_bounces = bounce_findings(observation, emitted, signature, expectations);
+    let is_off =
+        trial.p_value < SIGNIFICANCE || findings.iter().chain(&of_bounces).any(Finding::is_fault);
     let mut explanation = is_off.then(|| name(observation, emitted, places, known)).flatten();
     if is_off && explanation.is_none() && emitted.is_some() && !emitted_by_user {
         // A wrong intensity is no fault, so the number that it gives must not become one.
@@ -132,7 +135,7 @@ pub fn judge(
             .map(|test| finding_of(test, trial.tests.len(), &reading, explanation.as_ref())),
     );
     findings.push(enough(observation, emitted, trial.emitted));
-    findings.extend(bounce_findings(observation, emitted, &signature, expectations));
+    findings.extend(of_bounces);
     findings.extend(remarks(observation));
     Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
 }

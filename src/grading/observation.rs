@@ -17,7 +17,7 @@ pub const BOUNCES: usize = 4;
 pub struct Counts {
     /// By cell.
     pub cells: Vec<f64>,
-    /// Where one facet rises from another.
+    /// Where two facets meet.
     pub corner: f64,
     /// Where a box stands.
     pub footprint: f64,

@@ -7,8 +7,8 @@ use crate::scene::Scene;
 /// How far off its surface a stored position may be, in world units: the handout does not say where
 /// exactly, and the largest distance that counts as fair is 7e-3.
 pub const FAR_OFF: f64 = 7.5e-3;
-/// Photons this close to a facet that rises from theirs are counted apart: which of the two they belong
-/// to cannot be told of a position that is slightly off.
+/// Photons this close to where another facet meets theirs are counted apart: which of the two they
+/// belong to cannot be told of a position that is slightly off.
 const MARGIN: f64 = 0.012;
 /// A large facet has 4 x 4 cells, a small one 2 x 2: its longest edge decides.
 const LARGE: f64 = 1.5;
@@ -23,7 +23,7 @@ pub enum Place {
         /// Which cell.
         cell: usize,
     },
-    /// So close to where one facet rises from another that it may belong to either.
+    /// So close to where two facets meet that it may belong to either.
     Corner {
         /// Which facet is closer.
         facet: usize,
@@ -49,8 +49,6 @@ pub struct Facet {
     pub divisions: usize,
     /// The number of its first cell.
     pub first_cell: usize,
-    /// The facets that rise from this one: they reach in front of its plane, and touch it.
-    rising: Vec<usize>,
 }
 
 /// The facets of the scene.
@@ -147,21 +145,8 @@ impl Places {
                 normal,
                 divisions,
                 first_cell: cells,
-                rising: Vec::new(),
             });
             cells += divisions * divisions;
-        }
-        for index in 0..facets.len() {
-            let facet = &facets[index];
-            let rises = |other: &Facet| {
-                let heights = other.corners.map(|corner| facet.height(corner));
-                let highest = heights.into_iter().fold(0.0, f64::max);
-                let touches = heights.iter().filter(|height| height.abs() < MARGIN).count() >= 2
-                    || facet.corners.iter().any(|corner| other.distance(*corner) < MARGIN);
-                highest > MARGIN && touches
-            };
-            let rising = (0..facets.len()).filter(|at| *at != index && rises(&facets[*at]));
-            facets[index].rising = rising.collect();
         }
         let surfaces: Vec<_> =
             scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()).collect();
@@ -185,7 +170,10 @@ impl Places {
         };
         let on = &self.facets[facet];
         let foot = position - on.height(position) * on.normal;
-        if on.rising.iter().any(|rising| self.facets[*rising].distance(foot) < MARGIN) {
+        let is_close = |(index, other): (usize, &Facet)| {
+            index != facet && other.height(foot).abs() < MARGIN && other.distance(foot) < MARGIN
+        };
+        if self.facets.iter().enumerate().any(is_close) {
             return Place::Corner { facet };
         }
         let is_under = |footprint: &&Footprint| footprint.floor == facet && footprint.holds(foot);
