@@ -1,14 +1,17 @@
 //! The command line: a file for every verb, each of which parses, calls and prints.
 
+pub mod beside_expected;
 pub mod compare;
 pub mod error;
 pub mod expect;
 pub mod explain;
 pub mod merge;
 pub mod output;
+pub mod progress;
 pub mod render;
 pub mod report;
 pub mod run_args;
+pub mod run_summary;
 pub mod values;
 
 use std::io::Write as _;

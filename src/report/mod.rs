@@ -14,6 +14,7 @@ pub mod page;
 pub mod plan;
 pub mod plot;
 pub mod precision;
+pub mod rules;
 pub mod samplers;
 pub mod statistics;
 pub mod transform;
