@@ -26,13 +26,16 @@ const WHOLE_SCENE: f64 = 4.0;
 
 /// Expected hits per emitted photon on every facet, for every bounce.
 pub fn expect(facets: &[Facet], emitters: &[Emitter], accuracy: Accuracy) -> Expectation {
+    expect_with(facets, emitters, &Settings::of(accuracy))
+}
+
+fn expect_with(facets: &[Facet], emitters: &[Emitter], settings: &Settings) -> Expectation {
     let scene = Scene::new(facets, emitters);
-    let settings = Settings::of(accuracy);
     let direct = Direct::new(&scene, Rule::folded(settings.gather_order), settings.gather_ratio);
     let cuts = scene.plates.len() <= MOST_FACETS_FOR_CUTS;
 
     let first_errors = vec![0.0; direct.hits.len()];
-    let second = second_hits(&scene, &direct, &settings, cuts);
+    let second = second_hits(&scene, &direct, settings, cuts);
     let mut known = vec![direct.hits.clone(), second.values];
     let mut errors = vec![first_errors, second.errors];
     if let Some(tolerance) = settings.third_tolerance {
@@ -280,7 +283,7 @@ fn covariance(result: &Expectation, coarse: &Bounces, fine: &Bounces) -> Vec<Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::fixtures::{TALL_BOX, handout};
+    use crate::accuracy::fixtures::{FLOOR, RIGHT_WALL, SHORT_BOX, TALL_BOX, handout};
 
     /// N2 the other way round: gathered on the facets it hits, instead of sent from those first hit. What the two share
     /// is visibility and the closed form factor; points, cuts and the quadrature differ.
@@ -306,8 +309,40 @@ mod tests {
         };
         let (value, error) = (sum(&sent.values), sum(&sent.errors));
         let distance = (gathered.values[0] - value).abs();
-        println!("{value} +- {error:e}, {} +- {:e}", gathered.values[0], gathered.errors[0]);
+        println!(
+            "{value:.13} +- {error:e}, {:.13} +- {:e}",
+            gathered.values[0], gathered.errors[0]
+        );
         assert!(distance <= error + gathered.errors[0], "{distance:e} apart");
         assert!(error + gathered.errors[0] < 1e-9);
+        let digits = [(SHORT_BOX, 0.007977496), (RIGHT_WALL, 0.009668818), (FLOOR, 0.005324345)];
+        for (surface, known) in [(TALL_BOX, 0.010443311)].into_iter().chain(digits) {
+            let is_there = |plate: &usize| facets[scene.plates[*plate].facet].surface == surface;
+            let all = (0..scene.plates.len()).filter(is_there);
+            let (value, error) =
+                all.fold((0.0, 0.0), |(v, e), k| (v + sent.values[k], e + sent.errors[k]));
+            assert!((value - known).abs() < 1e-9 && error < 3e-10, "{value} instead of {known}");
+        }
+    }
+
+    #[test]
+    fn third_hits_have_the_known_digits() {
+        let (facets, emitters) = handout();
+        let full = Settings::of(Accuracy::Full);
+        // What is looked at here does not depend on the meshes.
+        let settings = Settings { second_tolerance: 1e-6, cells: [100, 300], ..full };
+        let result = expect_with(&facets, &emitters, &settings);
+        let known = [
+            (FLOOR, 0.00330447),
+            (RIGHT_WALL, 0.00449688),
+            (SHORT_BOX, 0.00167178),
+            (TALL_BOX, 0.00153398),
+        ];
+        for (surface, known) in known {
+            let found = result.on_surface(surface, 3);
+            assert!((found.value - known).abs() < 2e-8, "{found:?} instead of {known}");
+        }
+        assert!((result.total(3).value - 0.01100711).abs() < 3e-8);
+        assert!(result.total(3).error <= 3.1e-8);
     }
 }
