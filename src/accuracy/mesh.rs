@@ -2,7 +2,7 @@
 
 use super::cuts::{cutting_planes, strips};
 use super::direct::kernel;
-use super::polygon::{Plane, Polygon, bisect, fan, longest_edge, split};
+use super::polygon::{ON_PLANE, Plane, Polygon, bisect, fan, longest_edge, range, split};
 use super::scene::Scene;
 use super::solid_angle::form_factor;
 use super::triangle_rules::Rule;
@@ -188,6 +188,14 @@ impl Mesh {
         match branch {
             Branch::Empty => {}
             Branch::Cut(plane, positive, negative) => {
+                // Most cuts miss the piece: it goes on as it is, without a copy.
+                let (lowest, highest) = range(&piece, plane);
+                if lowest >= -ON_PLANE {
+                    return self.descend(scene, view, positive, target, piece, row);
+                }
+                if highest <= ON_PLANE {
+                    return self.descend(scene, view, negative, target, piece, row);
+                }
                 let (above, below) = split(&piece, plane);
                 self.descend(scene, view, positive, target, above, row);
                 self.descend(scene, view, negative, target, below, row);

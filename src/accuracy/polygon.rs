@@ -8,7 +8,7 @@ use glam::DVec3;
 pub type Polygon = Vec<DVec3>;
 
 /// Corners nearer than this to a cutting plane count as on it, so that cuts along shared edges leave no slivers.
-const ON_PLANE: f64 = 1e-13;
+pub const ON_PLANE: f64 = 1e-13;
 
 /// An oriented plane: points with `normal . p = offset`.
 #[derive(Clone, Copy, Debug)]

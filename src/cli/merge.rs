@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::error::CliError;
 use super::output::OutputFile;
-use super::render::{Seconds, Summary, print_summary};
+use super::run_summary::{Summary, print_summary};
 use crate::accuracy::table::ExpectedTable;
 use crate::photon_list::error::ListError;
 use crate::photon_list::run::Run;
@@ -171,17 +171,12 @@ fn summary(whole: &Run, tally: &Tally) -> Summary {
     let max_bounces = whole.max_bounces.max(0) as usize;
     let (surfaces, total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
     Summary {
-        run: None,
-        counts: None,
         seed: Some(whole.seed),
-        sampler: None,
         emitted: Some(emitted),
         stored: tally.stored(),
-        sha256: None,
-        seconds: Seconds::default(),
         surfaces,
         total: Some(total),
-        files: Vec::new(),
+        ..Summary::default()
     }
 }
 

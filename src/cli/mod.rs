@@ -1,5 +1,6 @@
 //! The command line: a file for every verb, each of which parses, calls and prints.
 
+pub mod beside_expected;
 pub mod compare;
 pub mod error;
 pub mod expect;
@@ -7,9 +8,11 @@ pub mod explain;
 pub mod grade;
 pub mod merge;
 pub mod output;
+pub mod progress;
 pub mod render;
 pub mod report;
 pub mod run_args;
+pub mod run_summary;
 pub mod values;
 
 use std::io::Write as _;

@@ -1,20 +1,19 @@
 //! `photon-mapping render`: trace the photons, write their list, draw the picture.
 
-use std::io::{self, IsTerminal};
+use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use serde::Serialize;
 
-use super::error::{CliError, print};
+use super::beside_expected::beside_expected;
+use super::error::CliError;
 use super::output::OutputFile;
+use super::progress;
 use super::run_args::RunArgs;
+use super::run_summary::{Seconds, Summary, print_summary};
 use super::values;
-use crate::accuracy::Accuracy;
-use crate::accuracy::table::ExpectedTable;
 use crate::assignment8;
 use crate::lanes::picture::take_picture;
 use crate::lanes::width::Width;
@@ -25,14 +24,9 @@ use crate::photon_list::trace::trace_list;
 use crate::photon_list::writer::{Format, ListHash, ListWriter};
 use crate::rendering::photon_map::PhotonMap;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use crate::rendering::reading::Reading;
 use crate::rendering::sampler::Sampler;
 use crate::scene::Scene;
-use crate::scene::triangle::Triangle;
-use crate::summary::{Counts, SurfaceSummary, Tally, table};
-
-/// Expecting takes seconds at this many faces, and grows with their square; tracing does not.
-const MOST_FACETS_TO_EXPECT: usize = 40;
+use crate::summary::Tally;
 
 /// The options of `render`.
 #[derive(Debug, Args)]
@@ -93,35 +87,6 @@ enum SamplerName {
     Sobol,
 }
 
-/// What a run did.
-#[derive(Debug, Serialize)]
-pub(super) struct Summary {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) run: Option<Run>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) counts: Option<Counts>,
-    pub(super) seed: Option<u64>,
-    /// Named only where it is not the reference's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) sampler: Option<&'static str>,
-    pub(super) emitted: Option<u64>,
-    pub(super) stored: u64,
-    pub(super) sha256: Option<String>,
-    pub(super) seconds: Seconds,
-    pub(super) surfaces: Vec<SurfaceSummary>,
-    pub(super) total: Option<SurfaceSummary>,
-    pub(super) files: Vec<PathBuf>,
-}
-
-/// How long each phase took. The list's rows are written while later photons are traced; `write`
-/// is what remains to be done after that.
-#[derive(Debug, Default, Serialize)]
-pub(super) struct Seconds {
-    pub(super) trace: f64,
-    pub(super) picture: f64,
-    pub(super) write: f64,
-}
-
 /// Renders, and prints the summary.
 ///
 /// # Errors
@@ -132,17 +97,6 @@ pub fn run(arguments: &RenderArgs) -> Result<u8, CliError> {
     let pool = pool.map_err(|error| CliError::Argument(format!("--threads: {error}")))?;
     let summary = pool.install(|| render(arguments))?;
     print_summary(&summary, arguments.json)
-}
-
-/// Prints `summary` and gives the exit code.
-pub(super) fn print_summary(summary: &Summary, as_json: bool) -> Result<u8, CliError> {
-    if as_json {
-        let json = serde_json::to_string(summary).expect("a summary has only plain values");
-        print(&(json + "\n"))?;
-    } else {
-        print(&text(summary))?;
-    }
-    Ok(0)
 }
 
 fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
@@ -171,7 +125,7 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let (width, height) = arguments.size;
     let frame = renderer.stored_scene.frame();
     let camera = assignment8::create_camera(width, height).in_frame(frame);
-    let progress = progress(arguments, "picture", u64::from(height));
+    let progress = progress::bar(arguments.quiet, "picture", u64::from(height));
     let (lanes, row_done) = (Width::widest(), || progress.inc(1));
     let picture = take_picture(&renderer, lanes, &camera, width, height, row_done);
     progress.finish_and_clear();
@@ -219,7 +173,7 @@ fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Sum
     let photons = photons(arguments, renderer)?;
     let mut hash = ListHash::default();
     let mut tally = tally(&renderer.stored_scene);
-    let progress = progress(arguments, "photons", photons.end - photons.start);
+    let progress = progress::bar(arguments.quiet, "photons", photons.end - photons.start);
     trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
         hash.update_all(records);
         records.iter().for_each(|record| tally.add(record));
@@ -227,22 +181,10 @@ fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Sum
         Ok::<(), CliError>(())
     })?;
     progress.finish_and_clear();
-    let emitted = photons.end - photons.start;
-    let seconds = Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() };
-    let (surfaces, total) = judge(arguments, renderer, &photons, &tally);
-    Ok(Summary {
-        counts: Some(tally.counts()),
-        run: Some(Run::new(renderer, photons)),
-        seed: Some(renderer.seed),
-        sampler: other_sampler(renderer),
-        emitted: Some(emitted),
-        stored: tally.stored(),
-        sha256: Some(hash.hex()),
-        seconds,
-        surfaces,
-        total: Some(total),
-        files: Vec::new(),
-    })
+    let counts = Some(tally.counts());
+    let run = Some(Run::new(renderer, photons.clone()));
+    let traced = traced(arguments, renderer, &photons, &tally, &hash, start);
+    Ok(Summary { counts, run, ..traced })
 }
 
 /// Traces the list into a file that is not yet in its place, and fills the photon map.
@@ -263,7 +205,7 @@ fn trace(
     let mut tally = tally(&renderer.stored_scene);
     let mut positions = Vec::new();
     let frame = *renderer.stored_scene.frame();
-    let progress = progress(arguments, "photons", photons.end - photons.start);
+    let progress = progress::bar(arguments.quiet, "photons", photons.end - photons.start);
     let mut writer =
         ListWriter::new(file.file(), format, comments(renderer, &photons)).map_err(unwritable)?;
     trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
@@ -278,23 +220,32 @@ fn trace(
     .map_err(unwritable)?;
     progress.finish_and_clear();
     renderer.diffuse_map = PhotonMap::new(positions);
-    let emitted = photons.end - photons.start;
+    Ok((traced(arguments, renderer, &photons, &tally, &hash, start), file))
+}
+
+/// What tracing `photons` since `start` came to.
+fn traced(
+    arguments: &RenderArgs,
+    renderer: &PhotonMappingRenderer,
+    photons: &Range<u64>,
+    tally: &Tally,
+    hash: &ListHash,
+    start: Instant,
+) -> Summary {
     let seconds = Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() };
-    let (surfaces, total) = judge(arguments, renderer, &photons, &tally);
-    let summary = Summary {
-        run: None,
-        counts: None,
+    let is_built_in = arguments.run.scene.is_built_in();
+    let (surfaces, total) = beside_expected(is_built_in, renderer, photons, tally);
+    Summary {
         seed: Some(renderer.seed),
         sampler: other_sampler(renderer),
-        emitted: Some(emitted),
+        emitted: Some(photons.end - photons.start),
         stored: tally.stored(),
         sha256: Some(hash.hex()),
         seconds,
         surfaces,
         total: Some(total),
-        files: Vec::new(),
-    };
-    Ok((summary, file))
+        ..Summary::default()
+    }
 }
 
 /// Fills the photon map from the list `path`.
@@ -309,7 +260,7 @@ fn read_list(
     let mut hash = ListHash::default();
     let mut tally = tally(&renderer.stored_scene);
     let mut positions = Vec::new();
-    let progress = progress(arguments, "list", 0);
+    let progress = progress::bar(arguments.quiet, "list", 0);
     let columns = reader::read(path, |record| {
         positions.push(frame.to_scene(record.position.as_dvec3()));
         hash.update(&record);
@@ -329,67 +280,13 @@ fn read_list(
         false => (Vec::new(), None),
     };
     Ok(Summary {
-        run: None,
-        counts: None,
-        seed: None,
-        sampler: None,
-        emitted: None,
         stored,
         sha256: columns.all().then(|| hash.hex()),
         seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
         surfaces,
         total,
-        files: Vec::new(),
+        ..Summary::default()
     })
-}
-
-/// The tally of the photons `photons` beside what is expected, and all surfaces together.
-fn judge(
-    arguments: &RenderArgs,
-    renderer: &PhotonMappingRenderer,
-    photons: &Range<u64>,
-    tally: &Tally,
-) -> (Vec<SurfaceSummary>, SurfaceSummary) {
-    let emitted = photons.end - photons.start;
-    let expected = expected(arguments, renderer, photons);
-    let max_bounces = renderer.max_photon_bounces as usize;
-    let (mut surfaces, mut total) = tally.surfaces(emitted, max_bounces, expected.as_ref());
-    if renderer.sampler != Sampler::ChaCha {
-        // Standard deviations are those of independent photons.
-        surfaces.iter_mut().chain([&mut total]).for_each(SurfaceSummary::forget_z);
-    }
-    (surfaces, total)
-}
-
-/// What the photons of a run are expected to do, where that is known or soon computed.
-fn expected(
-    arguments: &RenderArgs,
-    renderer: &PhotonMappingRenderer,
-    photons: &Range<u64>,
-) -> Option<ExpectedTable> {
-    let scene = &renderer.stored_scene;
-    if renderer.reading != Reading::REFERENCE {
-        return None;
-    }
-    if arguments.run.scene.is_built_in() {
-        return Some(ExpectedTable::of_assignment8());
-    }
-    (facets(scene) <= MOST_FACETS_TO_EXPECT).then(|| {
-        let mut first = 0;
-        let in_range = renderer.photons_per_light().into_iter().map(|count| {
-            let of_light = first..first + count;
-            first = of_light.end;
-            let end = of_light.end.min(photons.end);
-            end.saturating_sub(of_light.start.max(photons.start))
-        });
-        ExpectedTable::compute(scene, &in_range.collect::<Vec<_>>(), Accuracy::Quick)
-    })
-}
-
-/// How many faces the model has.
-fn facets(scene: &Scene) -> usize {
-    let face = |triangle: &Triangle| (triangle.parent_mesh_object, triangle.facet);
-    scene.triangles().chunk_by(|a, b| face(a) == face(b)).count()
 }
 
 fn tally(scene: &Scene) -> Tally {
@@ -408,47 +305,4 @@ fn comments(renderer: &PhotonMappingRenderer, photons: &Range<u64>) -> Vec<Strin
     let mesh_objects = renderer.stored_scene.mesh_objects().iter().enumerate();
     comments.extend(mesh_objects.map(|(index, mesh)| format!("surface {index} {}", mesh.name)));
     comments
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(arguments: &RenderArgs, what: &'static str, length: u64) -> ProgressBar {
-    let hidden = arguments.quiet || !io::stderr().is_terminal();
-    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let style = "{msg:8} {wide_bar} {human_pos}/{human_len} {eta}";
-    let style = ProgressStyle::with_template(style).expect("the template is well formed");
-    ProgressBar::with_draw_target(Some(length), target).with_style(style).with_message(what)
-}
-
-fn text(summary: &Summary) -> String {
-    let mut text = String::new();
-    if let (Some(seed), Some(emitted)) = (summary.seed, summary.emitted) {
-        let sampler = summary.sampler.map(|name| format!(", sampler {name}")).unwrap_or_default();
-        let stored = summary.stored;
-        text += &format!("seed {seed}{sampler}: {emitted} photons emitted, {stored} stored\n\n");
-    } else {
-        text += &format!("{} photons read\n\n", summary.stored);
-    }
-    if !summary.surfaces.is_empty() {
-        let lines: Vec<_> = summary.surfaces.iter().chain(&summary.total).cloned().collect();
-        text += &table(&lines);
-        if summary.surfaces.iter().any(|surface| surface.expected.is_some()) {
-            text += match summary.sampler {
-                None => "stored / expected (difference in standard deviations)\n",
-                Some(_) => "stored / expected\n",
-            };
-        }
-        text += "\n";
-    }
-    if let Some(sha256) = &summary.sha256 {
-        text += &format!("photon list SHA-256 {sha256}\n");
-    }
-    let Seconds { trace, picture, write } = summary.seconds;
-    let first = if summary.seed.is_some() { "trace" } else { "read" };
-    if trace + picture + write > 0.0 {
-        text += &format!("seconds: {first} {trace:.2}, picture {picture:.2}, write {write:.2}\n");
-    }
-    for file in &summary.files {
-        text += &format!("written: {}\n", file.display());
-    }
-    text
 }

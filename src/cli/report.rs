@@ -1,13 +1,13 @@
 //! `photon-mapping report`: speed, precision, offset and sampler against accuracy, as a page.
 
-use std::io::{self, IsTerminal, Write as _};
+use std::io::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::error::{CliError, print};
 use super::output::OutputFile;
+use super::progress;
 use crate::report::plan::Plan;
 use crate::report::{self, FILES};
 
@@ -42,7 +42,7 @@ pub fn run(arguments: &ReportArgs) -> Result<u8, CliError> {
     for name in FILES {
         outputs.push((name, OutputFile::create(&arguments.out.join(name))?));
     }
-    let bar = progress(arguments, plan.photons());
+    let bar = progress::bar(arguments.quiet, "photons", plan.photons());
     let files = report::run(&plan, &|photons| bar.inc(photons));
     bar.finish_and_clear();
     for (name, output) in &mut outputs {
@@ -58,13 +58,4 @@ pub fn run(arguments: &ReportArgs) -> Result<u8, CliError> {
     }
     print(&format!("written: {}\n", page.display()))?;
     Ok(0)
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(arguments: &ReportArgs, photons: u64) -> ProgressBar {
-    let hidden = arguments.quiet || !io::stderr().is_terminal();
-    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let style = "photons {wide_bar} {human_pos}/{human_len} {eta}";
-    let style = ProgressStyle::with_template(style).expect("the template is well formed");
-    ProgressBar::with_draw_target(Some(photons), target).with_style(style)
 }

@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::verdict::Section;
+use super::section::Section;
 use crate::rendering::sampling::sample_hemisphere;
 
 /// What students do instead, with the direction it gives at a hit with `frame`, where the draws

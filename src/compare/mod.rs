@@ -1,7 +1,7 @@
 //! Where two photon lists part, and at which step of the handout.
 //!
 //! [`alignment`] pairs the records, [`differences`] counts what the pairs differ in, [`divergence`]
-//! picks the first difference and asks [`verdict`] which section of the handout it belongs to,
+//! picks the first difference and asks [`verdict`] which [`section`] of the handout it belongs to,
 //! which in turn tries the [`hypotheses`] of what students do instead; [`whole`] looks at all differences together. [`readings`] tries whether
 //! another fair reading of the handout explains the differences. [`report`] puts it together;
 //! [`pictures`] compares pictures instead.
@@ -15,6 +15,7 @@ pub mod pictures;
 pub mod position_index;
 pub mod readings;
 pub mod report;
+pub mod section;
 mod text;
 pub mod verdict;
 pub mod whole;

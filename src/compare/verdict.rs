@@ -1,46 +1,13 @@
 //! To which section of the handout does a difference belong?
 
 use glam::{Mat3, Vec3};
-use serde::Serialize;
 
 use super::hypotheses::hypotheses;
 use super::position_index::is_near;
+use super::section::Section;
 use crate::explain::{Ending, Hit, Story};
 use crate::photon_list::record::PhotonRecord;
 use crate::rendering::sampling::sample_hemisphere;
-
-/// The sections of the handout in which a photon's path is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub enum Section {
-    /// How the photon leaves the light.
-    #[serde(rename = "Photon Emission")]
-    PhotonEmission,
-    /// Which hits are stored, and when the path must end.
-    #[serde(rename = "Photon Storage")]
-    PhotonStorage,
-    /// The roulette.
-    #[serde(rename = "Photon Scattering/Absorption")]
-    PhotonScatteringAbsorption,
-    /// The direction in tangent space.
-    #[serde(rename = "Hemisphere Sampling")]
-    HemisphereSampling,
-    /// The direction in world space, and the ray that is traced along it.
-    #[serde(rename = "Hemisphere Ray Transformation")]
-    HemisphereRayTransformation,
-}
-
-impl Section {
-    /// The section's title in the handout.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::PhotonEmission => "Photon Emission",
-            Self::PhotonStorage => "Photon Storage",
-            Self::PhotonScatteringAbsorption => "Photon Scattering/Absorption",
-            Self::HemisphereSampling => "Hemisphere Sampling",
-            Self::HemisphereRayTransformation => "Hemisphere Ray Transformation",
-        }
-    }
-}
 
 /// What a difference is put down to.
 #[derive(Clone, Debug, PartialEq)]

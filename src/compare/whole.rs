@@ -6,7 +6,8 @@ use super::alignment::Pairing;
 use super::differences::Difference;
 use super::divergence::Lists;
 use super::numbers::thousands;
-use super::verdict::{Section, Verdict};
+use super::section::Section;
+use super::verdict::Verdict;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 
 /// So many records beyond a bounce must be missing before it is called a limit without doubt.

@@ -20,7 +20,7 @@ macro_rules! tracer {
         $(#[$doc])*
         pub mod $module {
             use super::*;
-            use crate::scene::{LARGE_EPSILON, Scene};
+            use crate::scene::Scene;
 
             struct Face {
                 vertices: [$vector; 3],
@@ -32,6 +32,7 @@ macro_rules! tracer {
             pub struct Tracer {
                 faces: Vec<Face>,
                 light: $vector,
+                offset: $scalar,
             }
 
             fn widen(vector: Vec3) -> $vector {
@@ -39,8 +40,8 @@ macro_rules! tracer {
             }
 
             impl Tracer {
-                /// The scene and its first light.
-                pub fn new(scene: &Scene) -> Self {
+                /// The scene and its first light; scattered rays start `offset` along the normal.
+                pub fn new(scene: &Scene, offset: f64) -> Self {
                     let face = |triangle: &crate::scene::triangle::Triangle| {
                         let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
                         let diffuse = mesh_object.material.base_diffuse_reflection();
@@ -51,7 +52,8 @@ macro_rules! tracer {
                         }
                     };
                     let light = widen(scene.lights()[0].position);
-                    Self { faces: scene.triangles().iter().map(face).collect(), light }
+                    let faces = scene.triangles().iter().map(face).collect();
+                    Self { faces, light, offset: offset as $scalar }
                 }
 
                 /// Follows one photon for up to 1001 hits; `path` is overwritten.
@@ -81,7 +83,7 @@ macro_rules! tracer {
                         }
                         let (u1, u2) = (rand(), rand());
                         direction = scatter(face.normal, u1, u2);
-                        origin = point + <$scalar>::from(LARGE_EPSILON) * face.normal;
+                        origin = point + self.offset * face.normal;
                     }
                 }
 
@@ -170,11 +172,12 @@ mod tests {
     use crate::assignment8;
     use crate::random::photon_random;
     use crate::report::hits::surface_hits;
+    use crate::scene::LARGE_EPSILON;
 
     #[test]
     fn single_precision_is_the_reference() {
         let renderer = assignment8::create_renderer(assignment8::create_scene());
-        let tracer = single::Tracer::new(&renderer.stored_scene);
+        let tracer = single::Tracer::new(&renderer.stored_scene, LARGE_EPSILON.into());
         let mut path = Path::default();
         renderer.generic_photon_map_generation(&mut Vec::new(), 0..20_000, |photon, known, _| {
             tracer.trace(&mut photon_random(renderer.seed, photon), &mut path);

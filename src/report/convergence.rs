@@ -1,102 +1,12 @@
 //! Speed against error: how far stored densities are from what is expected, and what that costs.
 
 use std::fmt::Write as _;
-use std::time::Instant;
-
-use glam::DVec3;
 
 use super::Section;
 use super::csv::{Table, digits, percent, short};
-use super::hits::facet_of_triangles;
-use super::plan::Plan;
 use super::plot::{Axes, Line, Mark, draw};
-use super::statistics::{log_log_slope, rms, rms_factor};
-use crate::accuracy::table::ExpectedTable;
-use crate::assignment8;
-use crate::photon_list::record::PhotonRecord;
-use crate::photon_list::trace::trace_list;
-use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use crate::scene::Scene;
-
-/// One run.
-pub struct Run {
-    emitted: u64,
-    seed: u64,
-    seconds: f64,
-    /// Stored photons by facet.
-    stored: Vec<u64>,
-}
-
-/// All runs, and what they are held against.
-pub struct Speed {
-    sizes: Vec<u64>,
-    seeds: u64,
-    runs: Vec<Run>,
-    expected: ExpectedTable,
-    /// The surface of each facet.
-    surfaces: Vec<usize>,
-}
-
-/// Runs everything. Traces as `render` does, on all cores.
-pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Speed {
-    let scene = assignment8::create_scene();
-    let planes = planes(&scene);
-    let expected = ExpectedTable::of_assignment8();
-    let surfaces = planes.iter().map(|plane| plane.surface).collect();
-    let base = assignment8::create_renderer(scene);
-    // The first run of all would pay for waking the threads.
-    run(&base, &planes, 0, 10_000);
-    let mut runs = Vec::new();
-    for (number, emitted) in plan.sizes.iter().enumerate() {
-        for seed in 0..plan.seeds {
-            runs.push(run(&base, &planes, Plan::seed(number, seed), *emitted));
-            progress(*emitted);
-        }
-    }
-    Speed { sizes: plan.sizes.clone(), seeds: plan.seeds, runs, expected, surfaces }
-}
-
-fn run(base: &PhotonMappingRenderer, planes: &[Plane], seed: u64, emitted: u64) -> Run {
-    let renderer = PhotonMappingRenderer { seed, photon_count: emitted, ..base.clone() };
-    let mut stored = vec![0; planes.len()];
-    let start = Instant::now();
-    let Ok(()) = trace_list(&renderer, 0..renderer.emitted(), |records, _| {
-        records.iter().for_each(|record| stored[facet(record, planes)] += 1);
-        Ok::<_, std::convert::Infallible>(())
-    });
-    Run { emitted: renderer.emitted(), seed, seconds: start.elapsed().as_secs_f64(), stored }
-}
-
-/// The plane of a facet.
-struct Plane {
-    surface: usize,
-    point: DVec3,
-    normal: DVec3,
-}
-
-fn planes(scene: &Scene) -> Vec<Plane> {
-    let mut planes: Vec<Plane> = Vec::new();
-    for (triangle, facet) in scene.triangles().iter().zip(facet_of_triangles(scene)) {
-        if facet == planes.len() {
-            let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_dvec3());
-            let normal = (b - a).cross(c - a).normalize();
-            planes.push(Plane { surface: triangle.parent_mesh_object, point: a, normal });
-        }
-    }
-    planes
-}
-
-/// The facet a photon lies on: a list names its surface, so it is the nearest plane of that.
-fn facet(record: &PhotonRecord, planes: &[Plane]) -> usize {
-    let position = record.position.as_dvec3();
-    let of_surface =
-        planes.iter().enumerate().filter(|(_, plane)| plane.surface == usize::from(record.surface));
-    let distance = |plane: &Plane| plane.normal.dot(position - plane.point).abs();
-    of_surface
-        .min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))
-        .expect("every surface has a facet")
-        .0
-}
+use super::speed_runs::{Run, Speed};
+use super::statistics::{Estimate, FEWEST, Runs, log_log_slope, rms, variance_of_one};
 
 /// A density that is judged, as a sum of facets.
 struct Quantity {
@@ -104,6 +14,22 @@ struct Quantity {
     name: String,
     facets: Vec<usize>,
     expected: f64,
+}
+
+/// The errors of the total, of each surface, or of each facet.
+struct Curve {
+    name: &'static str,
+    /// Photons expected for one that is emitted, in the cell with the fewest.
+    fewest: f64,
+    /// By size, over all cells.
+    rms: Vec<Estimate>,
+    slope: Option<Estimate>,
+    squares: Vec<Runs>,
+}
+
+/// Whether so many photons are expected that errors have an interval.
+fn has_interval(size: u64, expected: f64) -> bool {
+    size as f64 * expected >= FEWEST
 }
 
 impl Speed {
@@ -127,28 +53,15 @@ impl Speed {
         quantities
     }
 
-    fn runs_of(&self, size: u64) -> impl Iterator<Item = &Run> {
-        self.runs.iter().filter(move |run| run.emitted == size)
-    }
-
-    /// Errors of `quantity` relative to what is expected, one for each run of `size`.
-    fn errors(&self, size: u64, quantity: &Quantity) -> Vec<f64> {
-        let error = |run: &Run| {
+    /// The squared relative errors of `quantities`, by size and run.
+    fn squares(&self, quantities: &[&Quantity]) -> Vec<Runs> {
+        let square = |run: &Run, quantity: &Quantity| {
             let stored: u64 = quantity.facets.iter().map(|facet| run.stored[*facet]).sum();
-            stored as f64 / run.emitted as f64 / quantity.expected - 1.0
+            (stored as f64 / run.emitted as f64 / quantity.expected - 1.0).powi(2)
         };
-        self.runs_of(size).map(error).collect()
-    }
-
-    /// RMS error over the runs and over all quantities of `scope`.
-    fn scope_rms(&self, size: u64, quantities: &[Quantity], scope: &str) -> f64 {
-        let of_scope = quantities.iter().filter(|quantity| quantity.scope == scope);
-        rms(&of_scope.flat_map(|quantity| self.errors(size, quantity)).collect::<Vec<_>>())
-    }
-
-    /// Mean seconds of the runs of `size`.
-    fn seconds(&self, size: u64) -> f64 {
-        self.runs_of(size).map(|run| run.seconds).sum::<f64>() / self.seeds as f64
+        let of_run = |run| quantities.iter().map(|quantity| square(run, quantity)).collect();
+        let sizes = self.sizes.iter();
+        sizes.map(|size| self.runs_of(*size).map(of_run).collect()).collect()
     }
 
     /// What theory says of one emitted photon: the relative standard deviation of the stored total.
@@ -157,71 +70,86 @@ impl Speed {
         variance.sqrt() / self.expected.total.stored
     }
 
-    fn runs_table(&self) -> Table {
-        let names: Vec<_> = self
-            .expected
-            .facets
-            .iter()
-            .map(|row| format!("{}/{}", row.surface, row.facet))
-            .collect();
-        let fixed = ["emitted", "seed", "seconds"];
-        let mut table =
-            Table::with_heads(fixed.into_iter().chain(names.iter().map(String::as_str)));
-        let mut expected = vec!["expected".to_owned(), "-".to_owned(), "-".to_owned()];
-        let hits = |row: &crate::accuracy::table::FacetRow| row.hits[1..].iter().sum::<f64>();
-        expected.extend(self.expected.facets.iter().map(|row| digits(hits(row))));
-        table.push(expected);
-        for run in &self.runs {
-            let first = [run.emitted.to_string(), run.seed.to_string(), digits(run.seconds)];
-            table.push(first.into_iter().chain(run.stored.iter().map(u64::to_string)));
-        }
-        table
+    /// All that a scope of quantities comes to.
+    fn curves(&self) -> [Curve; 3] {
+        let quantities = self.quantities();
+        [("total", "total"), ("surface", "each surface"), ("facet", "each facet")].map(
+            |(scope, name)| {
+                let of_scope: Vec<_> =
+                    quantities.iter().filter(|quantity| quantity.scope == scope).collect();
+                let squares = self.squares(&of_scope);
+                let expected: Vec<_> = of_scope.iter().map(|quantity| quantity.expected).collect();
+                let fewest = expected.iter().copied().fold(f64::INFINITY, f64::min);
+                let rms = squares.iter().map(rms).collect();
+                let slope = log_log_slope(&self.sizes, &squares, &expected);
+                Curve { name, fewest, rms, slope, squares }
+            },
+        )
     }
 }
 
 /// The section of the page.
 pub fn section(speed: &Speed) -> Section {
-    let quantities = speed.quantities();
-    let factor = rms_factor(speed.seeds);
-    let mut details =
-        Table::new("emitted scope name expected_per_photon rms_error low high spread");
-    for size in &speed.sizes {
-        for quantity in &quantities {
-            let errors = speed.errors(*size, quantity);
-            let sizes: Vec<_> = errors.iter().map(|error| error.abs()).collect();
-            let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
-            let spread = rms(&sizes.iter().map(|size| size - mean).collect::<Vec<_>>());
-            let rms = rms(&errors);
-            let numbers = [quantity.expected, rms, rms / factor, rms * factor, spread].map(digits);
-            let names = [size.to_string(), quantity.scope.to_owned(), quantity.name.clone()];
-            details.push(names.into_iter().chain(numbers));
-        }
-    }
-    let scopes = ["total", "surface", "facet"];
-    let curve = |scope: &str| -> Vec<f64> {
-        speed.sizes.iter().map(|size| speed.scope_rms(*size, &quantities, scope)).collect()
-    };
-    let curves = scopes.map(curve);
-    let mut files = vec![
+    let curves = speed.curves();
+    let files = vec![
         ("speed-runs.csv", speed.runs_table().csv()),
-        ("speed.csv", details.csv()),
+        ("speed.csv", details(speed, &curves).csv()),
         ("speed.svg", plot(speed, &curves)),
     ];
-    files.sort_by_key(|file| file.0);
     Section { markdown: markdown(speed, &curves), files }
 }
 
-fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
+/// Errors by size and quantity, with their intervals; last by scope, over all of its quantities.
+fn details(speed: &Speed, curves: &[Curve]) -> Table {
+    let mut table =
+        Table::new("emitted scope name expected_per_photon rms_error low high spread theory");
+    let none = || "-".to_owned();
+    let interval = |size: u64, expected: f64, rms: Estimate| {
+        let is_known = has_interval(size, expected);
+        [rms.low, rms.high].map(|end| if is_known { digits(end) } else { none() })
+    };
+    let quantities = speed.quantities();
+    let squares: Vec<_> = quantities.iter().map(|quantity| speed.squares(&[quantity])).collect();
+    for (number, size) in speed.sizes.iter().enumerate() {
+        for (quantity, squares) in quantities.iter().zip(&squares) {
+            let rms = rms(&squares[number]);
+            let sizes: Vec<_> =
+                squares[number].iter().flatten().map(|square| square.sqrt()).collect();
+            let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
+            let variance = sizes.iter().map(|size| (size - mean).powi(2)).sum::<f64>();
+            let spread = (variance / sizes.len() as f64).sqrt();
+            let [low, high] = interval(*size, quantity.expected, rms);
+            let theory = if quantity.scope == "total" {
+                digits(speed.deviation_of_one() / (*size as f64).sqrt())
+            } else {
+                none()
+            };
+            let names = [size.to_string(), quantity.scope.to_owned(), quantity.name.clone()];
+            let numbers = [digits(quantity.expected), digits(rms.value), low, high, digits(spread)];
+            table.push(names.into_iter().chain(numbers).chain([theory]));
+        }
+        for curve in &curves[1..] {
+            let rms = curve.rms[number];
+            let [low, high] = interval(*size, curve.fewest, rms);
+            let names = [size.to_string(), "all".to_owned(), curve.name.replace(' ', "_")];
+            let numbers = [none(), digits(rms.value), low, high, none(), none()];
+            table.push(names.into_iter().chain(numbers));
+        }
+    }
+    table
+}
+
+fn markdown(speed: &Speed, curves: &[Curve; 3]) -> String {
     let mut text = String::from(
         "## 1. Speed against error\n\n![RMS error over emitted photons](speed.svg)\n\n",
     );
-    let factor = rms_factor(speed.seeds);
     let _ = writeln!(
         text,
         "Relative error of the stored density against the expectation, as the root of its mean square \
-         over {} seeds at each size; no two runs share a photon. With that many seeds an RMS is known \
-         to within a factor {factor:.2} either way (95 %). Seconds are means, for tracing on all cores \
-         and counting by facet.\n",
+         over {} seeds at each size; no two runs share a photon. Intervals hold the true value with 95 %: they are \
+         jackknifed over the seeds, so that no law of the errors is assumed. Where a surface or facet expects \
+         fewer than {FEWEST} photons, its error has no interval and no part in a slope. Seconds are means, for tracing on \
+         all cores and counting by facet.\n",
         speed.seeds
     );
     let mut table = Table::with_heads([
@@ -236,14 +164,19 @@ fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
         "efficiency 1/(variance s)",
     ]);
     for (k, size) in speed.sizes.iter().enumerate() {
-        let (total, seconds) = (curves[0][k], speed.seconds(*size));
+        let (rms, seconds) = (curves[0].rms[k], speed.seconds(*size));
+        let total = rms.value;
         table.push([
             short(*size as f64, 1),
             percent(total),
-            format!("{} to {}", percent(total / factor), percent(total * factor)),
+            if has_interval(*size, curves[0].fewest) {
+                format!("{} to {}", percent(rms.low), percent(rms.high))
+            } else {
+                "-".to_owned()
+            },
             percent(speed.deviation_of_one() / (*size as f64).sqrt()),
-            percent(curves[1][k]),
-            percent(curves[2][k]),
+            percent(curves[1].rms[k].value),
+            percent(curves[2].rms[k].value),
             short(seconds, 3),
             short(*size as f64 / seconds, 3),
             short(1.0 / (total * total * seconds), 3),
@@ -251,22 +184,18 @@ fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
     }
     text += &table.markdown();
     text += "\n";
-    let slopes = curves.each_ref().map(|curve| log_log_slope(&speed.sizes, curve, speed.seeds));
-    for (name, slope) in ["total", "each surface", "each facet"].iter().zip(slopes) {
-        let _ = writeln!(
-            text,
-            "- Log-log slope, {name}: **{:.3} +- {:.3}** (95 %), expected -0.5.",
-            slope.slope, slope.half_width
+    for Curve { name, slope, .. } in curves {
+        let slope = slope.map_or_else(
+            || "not known from so few photons".to_owned(),
+            |slope| format!("**{:.3}** (95 %: {:.3} to {:.3})", slope.value, slope.low, slope.high),
         );
+        let _ = writeln!(text, "- Log-log slope, {name}: {slope}, expected -0.5.");
     }
     let largest = *speed.sizes.last().expect("a plan has sizes");
     let photons_per_second = largest as f64 / speed.seconds(largest);
-    let squares =
-        speed.sizes.iter().zip(&curves[0]).map(|(size, error)| *size as f64 * error * error);
-    let constant = squares.sum::<f64>() / speed.sizes.len() as f64;
-    let known_within = rms_factor(speed.seeds * speed.sizes.len() as u64).powi(2);
+    let of_one = variance_of_one(&speed.sizes, &curves[0].squares);
     for goal in [0.01, 0.001] {
-        let photons = constant / (goal * goal);
+        let photons = of_one.value / (goal * goal);
         let theory = (speed.deviation_of_one() / goal).powi(2);
         let _ = writeln!(
             text,
@@ -275,8 +204,8 @@ fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
             short(photons, 3),
             short(photons / photons_per_second, 3),
             short(photons_per_second, 3),
-            short(photons / known_within, 3),
-            short(photons * known_within, 3),
+            short(of_one.low / (goal * goal), 3),
+            short(of_one.high / (goal * goal), 3),
             short(theory, 3),
         );
     }
@@ -288,29 +217,26 @@ fn markdown(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
     text
 }
 
-fn plot(speed: &Speed, curves: &[Vec<f64>; 3]) -> String {
-    let factor = rms_factor(speed.seeds);
-    let names = ["total", "each surface", "each facet"];
-    let mut lines: Vec<_> = names
-        .iter()
-        .zip(curves)
-        .enumerate()
-        .map(|(colour, (name, curve))| {
-            let points = speed.sizes.iter().zip(curve);
-            Line {
-                name: format!("{name} (bars: 95 %)"),
-                colour,
-                mark: Mark::Bars(factor),
-                points: points.map(|(size, error)| (*size as f64, *error)).collect(),
-            }
-        })
-        .collect();
+fn plot(speed: &Speed, curves: &[Curve]) -> String {
+    let line = |(colour, curve): (usize, &Curve)| {
+        let sizes = || speed.sizes.iter().zip(&curve.rms);
+        let known = sizes().filter(|(size, _)| has_interval(**size, curve.fewest));
+        Line {
+            name: format!("{} (bars: 95 %)", curve.name),
+            colour,
+            mark: Mark::Circles,
+            points: sizes().map(|(size, rms)| (*size as f64, rms.value)).collect(),
+            bars: known.map(|(size, rms)| (*size as f64, rms.low, rms.high)).collect(),
+        }
+    };
+    let mut lines: Vec<_> = curves.iter().enumerate().map(line).collect();
     let theory = |size: &u64| (*size as f64, speed.deviation_of_one() / (*size as f64).sqrt());
     lines.push(Line {
         name: "total, theory (slope -1/2)".to_owned(),
         colour: 3,
         mark: Mark::Dashes,
         points: speed.sizes.iter().map(theory).collect(),
+        bars: Vec::new(),
     });
     let axes = Axes {
         title: "Error of the stored density".to_owned(),

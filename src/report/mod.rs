@@ -14,9 +14,12 @@ pub mod page;
 pub mod plan;
 pub mod plot;
 pub mod precision;
+pub mod rules;
 pub mod samplers;
+pub mod speed_runs;
 pub mod statistics;
 pub mod transform;
+pub mod true_paths;
 
 use plan::Plan;
 
@@ -47,7 +50,7 @@ pub struct Section {
 /// Measures all that `plan` asks for, and gives the files of the report: names out of [`FILES`], and
 /// what is in them. `progress` is told how many more photons have been traced.
 pub fn run(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Vec<(&'static str, String)> {
-    let speed = convergence::measure(plan, progress);
+    let speed = speed_runs::measure(plan, progress);
     let sections = [
         convergence::section(&speed),
         precision::section(&precision::measure(plan, progress)),

@@ -1,5 +1,7 @@
 //! How much is measured.
 
+use super::rules::cases;
+
 /// How much of each is measured, in photons and seeds.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -63,7 +65,7 @@ impl Plan {
     pub fn photons(&self) -> u64 {
         let speed = self.sizes.iter().sum::<u64>() * self.seeds;
         let samplers = 2 * self.sampler_sizes.iter().sum::<u64>() * self.sampler_seeds;
-        let offsets = super::offset::cases().len() as u64 * self.offset_photons;
+        let offsets = cases().len() as u64 * self.offset_photons;
         speed + samplers + offsets + 3 * self.precision_photons
     }
 }

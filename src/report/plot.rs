@@ -20,8 +20,6 @@ pub enum Mark {
     Plain,
     /// Joined, with circles.
     Circles,
-    /// As circles, with bars from y / factor to y * factor.
-    Bars(f64),
     /// A dashed line without marks.
     Dashes,
     /// Dashed, with hollow circles.
@@ -48,6 +46,8 @@ pub struct Line {
     pub mark: Mark,
     /// All above zero.
     pub points: Vec<(f64, f64)>,
+    /// Bars at x, from one y to another.
+    pub bars: Vec<(f64, f64, f64)>,
 }
 
 /// Okabe and Ito's colours, which the colour-blind can tell apart.
@@ -130,12 +130,10 @@ fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Fail
             let ring = |point: &(f64, f64)| Circle::new(*point, 4, colour.stroke_width(2));
             chart.draw_series(line.points.iter().map(ring))?;
         }
-        if let Mark::Bars(factor) = line.mark {
-            let bar = |&(x, y): &(f64, f64)| {
-                PathElement::new(vec![(x, y / factor), (x, y * factor)], colour.stroke_width(1))
-            };
-            chart.draw_series(line.points.iter().map(bar))?;
-        }
+        let bar = |&(x, low, high): &(f64, f64, f64)| {
+            PathElement::new(vec![(x, low), (x, high)], colour.stroke_width(1))
+        };
+        chart.draw_series(line.bars.iter().map(bar))?;
     }
     draw_legend(&legend, lines)
 }

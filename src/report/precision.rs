@@ -11,9 +11,10 @@ use super::csv::{Table, digits, short};
 use super::hits::facet_of_triangles;
 use super::plan::Plan;
 use super::plot::{Axes, Line, Mark, draw};
-use super::statistics::quantile;
+use super::statistics::{most_per_million, quantile};
 use crate::assignment8;
 use crate::random::photon_random;
+use crate::scene::LARGE_EPSILON;
 
 /// Hits of a path that are looked at.
 const HITS: usize = 8;
@@ -43,7 +44,9 @@ pub struct Precision {
 pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Precision {
     let scene = assignment8::create_scene();
     let facets = facet_of_triangles(&scene);
-    let (single, double) = (single::Tracer::new(&scene), double::Tracer::new(&scene));
+    let offset = LARGE_EPSILON.into();
+    let (single, double) =
+        (single::Tracer::new(&scene, offset), double::Tracer::new(&scene, offset));
     let pieces: Vec<_> = (0..plan.precision_photons)
         .step_by(PIECE as usize)
         .map(|start| start..plan.precision_photons.min(start + PIECE))
@@ -158,8 +161,7 @@ pub fn section(precision: &Precision) -> Section {
         precision.other_facet,
         precision.hit_or_escape,
         if other == 0 {
-            // The rule of three: this many would show at least once with 95 %.
-            let most = short(3e6 / precision.photons as f64, 2);
+            let most = short(most_per_million(precision.photons), 2);
             format!(" With none seen, fewer than {most} of a million are likely (95 %).")
         } else {
             String::new()
@@ -210,6 +212,7 @@ fn plot(precision: &Precision) -> String {
             colour: hit,
             mark: Mark::Plain,
             points: points.collect(),
+            bars: Vec::new(),
         }
     };
     let axes = Axes {

@@ -8,7 +8,7 @@ use super::csv::{Table, digits, percent, short};
 use super::hits::hits_by_bounce;
 use super::plan::Plan;
 use super::plot::{Axes, Line, Mark, draw};
-use super::statistics::{log_log_slope, rms, rms_factor};
+use super::statistics::{Estimate, Runs, log_log_slope, rms, variance_ratio};
 use crate::accuracy::table::ExpectedTable;
 use crate::assignment8;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
@@ -67,18 +67,22 @@ impl Samplers {
         self.runs.iter().filter(move |run| run.sampler == sampler && run.emitted == size)
     }
 
-    fn rms(&self, sampler: Sampler, size: u64, quantity: usize) -> f64 {
+    /// The squared relative errors of one quantity, by size and run.
+    fn squares(&self, sampler: Sampler, quantity: usize) -> Vec<Runs> {
         let expected = self.expected[quantity];
-        let error = |run: &Run| run.counts[quantity] as f64 / run.emitted as f64 / expected - 1.0;
-        rms(&self.runs_of(sampler, size).map(error).collect::<Vec<_>>())
+        let square = |run: &Run| {
+            vec![(run.counts[quantity] as f64 / run.emitted as f64 / expected - 1.0).powi(2)]
+        };
+        let sizes = self.sizes.iter();
+        sizes.map(|size| self.runs_of(sampler, *size).map(square).collect()).collect()
     }
 
     fn seconds(&self, sampler: Sampler, size: u64) -> f64 {
         self.runs_of(sampler, size).map(|run| run.seconds).sum::<f64>() / self.seeds as f64
     }
 
-    fn curve(&self, sampler: Sampler, quantity: usize) -> Vec<f64> {
-        self.sizes.iter().map(|size| self.rms(sampler, *size, quantity)).collect()
+    fn curve(&self, sampler: Sampler, quantity: usize) -> Vec<Estimate> {
+        self.squares(sampler, quantity).iter().map(rms).collect()
     }
 
     fn runs_table(&self) -> Table {
@@ -98,16 +102,19 @@ impl Samplers {
 /// The section of the page.
 pub fn section(samplers: &Samplers) -> Section {
     let mut csv = Table::new(
-        "emitted quantity chacha_rms sobol_rms variance_ratio chacha_seconds sobol_seconds",
+        "emitted quantity chacha_rms sobol_rms variance_ratio ratio_low ratio_high chacha_seconds \
+         sobol_seconds",
     );
-    for size in &samplers.sizes {
-        for (quantity, name) in NAMES.iter().enumerate() {
-            let [chacha, sobol] =
-                [Sampler::ChaCha, Sampler::Sobol].map(|s| samplers.rms(s, *size, quantity));
-            let seconds = [Sampler::ChaCha, Sampler::Sobol].map(|s| samplers.seconds(s, *size));
-            let numbers = [chacha, sobol, (chacha / sobol).powi(2), seconds[0], seconds[1]];
+    let both = [Sampler::ChaCha, Sampler::Sobol];
+    for (quantity, name) in NAMES.iter().enumerate() {
+        let [chacha, sobol] = both.map(|sampler| samplers.squares(sampler, quantity));
+        for (number, size) in samplers.sizes.iter().enumerate() {
+            let ratio = variance_ratio(&chacha[number], &sobol[number]);
+            let errors = [&chacha, &sobol].map(|squares| rms(&squares[number]).value);
+            let seconds = both.map(|sampler| samplers.seconds(sampler, *size));
+            let numbers = errors.into_iter().chain([ratio.value, ratio.low, ratio.high]);
             let names = [size.to_string(), name.replace(' ', "_")];
-            csv.push(names.into_iter().chain(numbers.map(digits)));
+            csv.push(names.into_iter().chain(numbers.chain(seconds).map(digits)));
         }
     }
     let files = vec![
@@ -122,44 +129,46 @@ fn markdown(samplers: &Samplers) -> String {
     let mut text =
         String::from("## 4. Sampler\n\n![Error of both samplers, by bounce](sampler.svg)\n\n");
     let largest = *samplers.sizes.last().expect("a plan has sizes");
-    let factor = rms_factor(samplers.seeds).powi(2);
     let [chacha_time, sobol_time] =
         [Sampler::ChaCha, Sampler::Sobol].map(|s| samplers.seconds(s, largest));
     let time_ratio = sobol_time / chacha_time;
     let _ = writeln!(
         text,
         "RMS relative error of all hits in the scene, over {} seeds, at {largest} emitted photons (sizes are powers of \
-         two, where a Sobol sequence is a net). A variance ratio is known to within a factor {:.1} either way (95 %).\n",
-        samplers.seeds,
-        // Two independent variances: their logarithms' spreads add in squares.
-        factor.powf(std::f64::consts::SQRT_2)
+         two, where a Sobol sequence is a net). Intervals (95 %) and the cells left out of slopes are as in section 1.\n",
+        samplers.seeds
     );
     let mut table = Table::with_heads([
         "",
         "ChaCha",
         "Sobol",
         "variance ratio",
+        "95 % interval",
         "slope, ChaCha",
         "slope, Sobol",
         "efficiency ratio",
     ]);
     for (quantity, name) in NAMES.iter().enumerate() {
         let [chacha, sobol] =
-            [Sampler::ChaCha, Sampler::Sobol].map(|s| samplers.rms(s, largest, quantity));
-        let slope = |sampler| {
-            let curve = samplers.curve(sampler, quantity);
-            let fit = log_log_slope(&samplers.sizes, &curve, samplers.seeds);
-            format!("{:.2} +- {:.2}", fit.slope, fit.half_width)
+            [Sampler::ChaCha, Sampler::Sobol].map(|sampler| samplers.squares(sampler, quantity));
+        let slope = |squares: &[Runs]| {
+            let slope = log_log_slope(&samplers.sizes, squares, &[samplers.expected[quantity]]);
+            slope.map_or_else(
+                || "-".to_owned(),
+                |slope| format!("{:.2} ({:.2} to {:.2})", slope.value, slope.low, slope.high),
+            )
         };
-        let ratio = (chacha / sobol).powi(2);
+        let last = samplers.sizes.len() - 1;
+        let ratio = variance_ratio(&chacha[last], &sobol[last]);
         table.push([
             (*name).to_owned(),
-            percent(chacha),
-            percent(sobol),
-            short(ratio, 3),
-            slope(Sampler::ChaCha),
-            slope(Sampler::Sobol),
-            short(ratio / time_ratio, 3),
+            percent(rms(&chacha[last]).value),
+            percent(rms(&sobol[last]).value),
+            short(ratio.value, 3),
+            format!("{} to {}", short(ratio.low, 3), short(ratio.high, 3)),
+            slope(&chacha),
+            slope(&sobol),
+            short(ratio.value / time_ratio, 3),
         ]);
     }
     text += &table.markdown();
@@ -189,7 +198,8 @@ fn plot(samplers: &Samplers) -> String {
                 name: format!("{}, {}", NAMES[quantity], sampler.name()),
                 colour,
                 mark,
-                points: points.map(|(size, error)| (*size as f64, error.max(1e-9))).collect(),
+                points: points.map(|(size, error)| (*size as f64, error.value.max(1e-9))).collect(),
+                bars: Vec::new(),
             });
         }
     }

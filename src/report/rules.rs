@@ -1,0 +1,37 @@
+//! The rules for where a scattered ray starts that the report holds side by side, and in which places.
+
+use super::transform::Place;
+
+/// How rays are started.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rule {
+    /// At the point hit.
+    None,
+    /// This far along the normal, in the units of the scene as it comes.
+    Fixed(f32),
+    /// As the program does with a model that it loads.
+    Reference,
+}
+
+impl Rule {
+    /// All rules of the report.
+    pub fn all() -> Vec<Self> {
+        let fixed = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1].map(Self::Fixed);
+        [Self::None].into_iter().chain(fixed).chain([Self::Reference]).collect()
+    }
+
+    /// What the page calls it.
+    pub fn name(self) -> String {
+        match self {
+            Self::None => "none".to_owned(),
+            Self::Fixed(length) => format!("{length:.0e} n"),
+            Self::Reference => "reference".to_owned(),
+        }
+    }
+}
+
+/// All pairs of rule and place.
+pub fn cases() -> Vec<(Rule, Place)> {
+    let of_place = |place| Rule::all().into_iter().map(move |rule| (rule, place));
+    Place::all().into_iter().flat_map(of_place).collect()
+}
