@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
+use crate::scene::Scene;
 use crate::scene::intersection_state::IntersectionState;
 use crate::scene::lights::point_light::PointLight;
 use crate::scene::ray::Ray;
-use crate::scene::Scene;
 
 /// Computes direct light with shadow rays.
 #[derive(Clone, Copy, Debug)]

@@ -24,13 +24,12 @@ use triangle::{ShearedRay, Triangle};
 /// Without it, rounding puts every other start just below the surface and the ray meets it again.
 pub const LARGE_EPSILON: f32 = 1e-5;
 
-/// From this width of its narrowest triangle on, a scene is started in as the framework does. The
-/// handout's narrowest has 0.42.
-const ORDINARY_WIDTH: f32 = 0.25;
+/// Where all triangles have an edge as long as this, rays start where the framework starts them. The
+/// handout's have 0.85.
+const ORDINARY_EDGE: f32 = 0.5;
 
-/// A point lies off its surface by less than this part of the lengths it was computed from: eight
-/// roundings of one half unit in the last place.
-const ROUNDING: f32 = 4.0 * f32::EPSILON;
+/// A thin triangle rounds a point as if it were larger, but not by more than this.
+const THINNEST: f32 = 16.0;
 
 /// Mesh objects, their triangles, and the lights, z up, in the space in which they are traced. For the
 /// handout's scene that is world space; see [`Frame`] for models of other sizes and places.
@@ -40,9 +39,9 @@ pub struct Scene {
     triangles: Vec<Triangle>,
     lights: Vec<PointLight>,
     frame: Frame,
-    /// The longest edge of every triangle.
+    /// For every triangle the length that rounds the points on it.
     sizes: Vec<f32>,
-    /// The offset that is small beside every triangle: [`LARGE_EPSILON`] unless some are narrow.
+    /// The offset that is small beside every triangle.
     epsilon: f32,
     /// Only for scenes of many triangles.
     tree: Option<Tree>,
@@ -74,9 +73,13 @@ impl Scene {
         lights: Vec<PointLight>,
     ) -> Self {
         let tree = (triangles.len() > tree::FEW).then(|| Tree::new(&triangles));
-        let sizes = triangles.iter().map(Triangle::longest_edge).collect();
-        let narrowest = triangles.iter().map(Triangle::width).fold(ORDINARY_WIDTH, f32::min);
-        let epsilon = LARGE_EPSILON * (narrowest / ORDINARY_WIDTH);
+        let edges = || triangles.iter().map(Triangle::longest_edge);
+        let epsilon = LARGE_EPSILON * (edges().fold(ORDINARY_EDGE, f32::min) / ORDINARY_EDGE);
+        let sizes = triangles.iter().zip(edges()).map(|(triangle, edge)| {
+            let thinness = edge / (2.0 * triangle.width());
+            edge * thinness.min(THINNEST)
+        });
+        let sizes = sizes.collect();
         Self { mesh_objects, triangles, lights, frame: Frame::WORLD, sizes, epsilon, tree }
     }
 
@@ -101,14 +104,14 @@ impl Scene {
     }
 
     /// How far along the normal a ray starts that leaves `triangle` at `point`, which a ray met at the
-    /// distance `t`: in the handout's scene always [`LARGE_EPSILON`].
+    /// distance `t`: [`LARGE_EPSILON`] everywhere in the handout's scene.
     ///
-    /// Beside details smaller than the handout's, that would be a leap. There the offset shrinks with the
-    /// narrowest triangle, but never to less than what rounding may have done to the point (after Waechter
-    /// and Binder, *Ray Tracing Gems*, chapter 6).
+    /// In a scene with much smaller triangles that would be a leap. There the offset shrinks in proportion
+    /// to the smallest, but never below what rounding may have done to the point: a few units in the last
+    /// place of the lengths it was computed from.
     pub fn offset(&self, triangle: usize, point: Vec3, t: f32) -> f32 {
-        let lengths = point.abs().max_element() + t + self.sizes[triangle];
-        self.epsilon.max(ROUNDING * lengths)
+        let lengths = point.abs().max_element() + 2.0 * t + self.sizes[triangle];
+        self.epsilon.max(2.0 * f32::EPSILON * lengths)
     }
 
     /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.

@@ -92,7 +92,7 @@ impl Triangle {
         self.edges().map(Vec3::length).into_iter().fold(0.0, f32::max)
     }
 
-    /// The height over the longest edge: the width of the narrowest gap that the triangle fits through.
+    /// The height over the longest edge.
     pub fn width(&self) -> f32 {
         let [a, b, _] = self.edges();
         a.cross(b).length() / self.longest_edge()
