@@ -8,7 +8,9 @@ use photon_mapping::assignment8;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use photon_mapping::rendering::reading::Reading;
 use photon_mapping::rendering::sampling::{sample_hemisphere, tangent_frame};
+use photon_mapping::scene::LARGE_EPSILON;
 use photon_mapping::scene::intersection_state::IntersectionState;
+use photon_mapping::scene::obj::{self, Model};
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 
@@ -235,6 +237,48 @@ fn sliver_triangles() {
     assert!(sliver.intersect(&ShearedRay::new(&ray)).is_none(), "parallel to it");
 }
 
+/// The model with these lines, or what is wrong with it.
+fn model(lines: &str, response: &str) -> Result<Model, String> {
+    let text = format!("mtllib materials\nusemtl grey\n{lines}");
+    let materials = format!("newmtl grey\nKd {response}\n");
+    obj::parse(&text, |_| Ok(materials.clone())).map_err(|error| error.to_string())
+}
+
+const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\n";
+
+#[test]
+fn degenerate_triangles_are_skipped() {
+    let faces = "f 1 2 4\nf 1 2 3\nf 1 1 4\nf 2 3 4\nf 4 4 4\n";
+    let facets = |model: Model| model.triangles.iter().map(|t| t.facet).collect::<Vec<_>>();
+    // Those that remain keep their numbers.
+    assert_eq!(model(&format!("{CORNERS}{faces}"), "0.5 0.5 0.5").map(facets), Ok(vec![0, 3]));
+    // Of a quad with three corners in a line, one half is left.
+    assert_eq!(model(&format!("{CORNERS}f 1 2 3 4\n"), "0.5 0.5 0.5").map(facets), Ok(vec![0]));
+}
+
+#[test]
+fn degenerate_triangles_alone_are_refused() {
+    let error = model(&format!("{CORNERS}f 1 2 3\nf 1 1 4\n"), "0.5 0.5 0.5").unwrap_err();
+    assert!(error.contains(":8:") && error.contains("only degenerate ones (2)"), "{error}");
+}
+
+#[test]
+fn not_a_number_infinite_or_1e38_is_refused() {
+    for wrong in ["nan", "NaN", "inf", "-inf", "infinity", "1e38", "-1e38", "1e999"] {
+        for (line, lines) in [
+            (3, format!("v {wrong} 0 0")),
+            (4, format!("\nv 0 0 {wrong}")),
+            (3, format!("vn 0 {wrong} 0")),
+        ] {
+            let error = model(&lines, "0.5 0.5 0.5").unwrap_err();
+            let place = format!("model:{line}: ");
+            assert!(error.starts_with(&place) && error.contains(&format!("'{wrong}'")), "{error}");
+        }
+        let error = model(CORNERS, &format!("0.5 {wrong} 0.5")).unwrap_err();
+        assert!(error.starts_with("materials:2: ") && error.contains(wrong), "{error}");
+    }
+}
+
 /// Whether `point`, in world space, lies in the footprint of one of the boxes, deeper than `margin`.
 fn in_a_footprint(point: DVec3, margin: f64) -> bool {
     let short = [(0.53, -0.75), (0.70, -0.17), (0.13, 0.0), (-0.05, -0.57)];
@@ -268,7 +312,7 @@ fn scattered_where_a_box_meets_the_floor() {
             if on_box { (edge + away * Vec3::Z, front) } else { (edge + away * front, Vec3::Z) };
         let frame = tangent_frame(normal, &Reading::REFERENCE);
         let direction = (frame * sample_hemisphere(rand(), rand())).normalize();
-        let start = Reading::REFERENCE.offset.start(point, normal, direction);
+        let start = Reading::REFERENCE.offset.start(point, normal, direction, LARGE_EPSILON);
         let mut state = IntersectionState::new();
         if scene.trace(&Ray::new(start, direction), Some(&mut state)) {
             let hit = state.intersection_point();

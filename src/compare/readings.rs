@@ -30,7 +30,7 @@ fn candidates(base: Reading) -> Vec<Reading> {
     let along_normal = [1e-5, 1e-6, 1e-4, 1e-3].map(Offset::AlongNormal);
     // An offset along the direction stays on the ray: its length moves nothing.
     let others = [Offset::AlongDirection(1e-4), Offset::None];
-    let offsets: Vec<_> = along_normal.into_iter().chain(others).collect();
+    let offsets: Vec<_> = [base.offset].into_iter().chain(along_normal).chain(others).collect();
     let mut readings = Vec::new();
     for tangent_basis in bases {
         for fallback_threshold in thresholds {
@@ -73,6 +73,7 @@ fn changes(reading: &Reading, base: &Reading) -> Vec<String> {
     }
     if reading.offset != base.offset {
         changes.push(match reading.offset {
+            Offset::AsNeeded => "offset as the hit needs".to_owned(),
             Offset::None => "no offset".to_owned(),
             Offset::AlongNormal(length) => format!("offset {length:e} along the normal"),
             Offset::AlongDirection(_) => "offset along the new direction".to_owned(),

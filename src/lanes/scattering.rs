@@ -16,6 +16,8 @@ pub struct Scatter<'a> {
     pub point: &'a [[f32; GROUP]; 3],
     /// The columns of `tangent_frame` there: t, b and n, each by coordinate.
     pub frame: &'a [[f32; GROUP]; 9],
+    /// [`crate::scene::Scene::offset`] there.
+    pub needed: &'a [f32; GROUP],
     /// Where the rays start.
     pub offset: Offset,
     /// Where the rays go.
@@ -27,7 +29,7 @@ impl NullaryFnOnce for Scatter<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { words, point, frame, offset, rays } = self;
+        let Self { words, point, frame, needed, offset, rays } = self;
         for lane in 0..GROUP {
             let (u1, u2) = (number(words[0][lane]), number(words[1][lane]));
             let r = u1.sqrt();
@@ -47,7 +49,8 @@ impl NullaryFnOnce for Scatter<'_> {
             let hit = Vec3::new(point[0][lane], point[1][lane], point[2][lane]);
             let normal = Vec3::new(frame[6][lane], frame[7][lane], frame[8][lane]);
             let [x, y, z] = &rays.direction;
-            let start = offset.start(hit, normal, Vec3::new(x[lane], y[lane], z[lane]));
+            let direction = Vec3::new(x[lane], y[lane], z[lane]);
+            let start = offset.start(hit, normal, direction, needed[lane]);
             rays.origin[0][lane] = start.x;
             rays.origin[1][lane] = start.y;
             rays.origin[2][lane] = start.z;

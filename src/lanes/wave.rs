@@ -26,6 +26,8 @@ struct Arrival {
     point: Vec3,
     /// Where it came from: the unit vector along which it flew.
     direction: Vec3,
+    /// How far.
+    t: f32,
     triangle: u32,
 }
 
@@ -117,7 +119,7 @@ impl LaneTracer<'_> {
                     };
                     let direction = of_lane(&aims.direction);
                     let point = Ray::new(light.position, direction).ray_position(t);
-                    arrivals.places.push(Arrival { point, direction, triangle });
+                    arrivals.places.push(Arrival { point, direction, t, triangle });
                     arrivals.draws.push(Draws {
                         photon: first + (start + lane) as u32,
                         drawn: emission.drawn[lane],
@@ -185,6 +187,7 @@ impl LaneTracer<'_> {
         let mut words = [[0; closest_hit::GROUP]; 2];
         let mut point = [[0.0; closest_hit::GROUP]; 3];
         let mut frame = [[0.0; closest_hit::GROUP]; 9];
+        let mut needed = [0.0; closest_hit::GROUP];
         let mut rays = Rays::default();
         let mut hits = Hits::default();
         let mut next = Arrivals::default();
@@ -198,12 +201,15 @@ impl LaneTracer<'_> {
                 for (column, coordinate) in frame.iter_mut().zip(self.surface(arrival).frame) {
                     column[lane] = coordinate;
                 }
+                let Arrival { point, t, triangle, .. } = *arrival;
+                needed[lane] = self.renderer.stored_scene.offset(triangle as usize, point, t);
             }
             let offset = self.renderer.reading.offset;
             self.width.run(Scatter {
                 words: &words,
                 point: &point,
                 frame: &frame,
+                needed: &needed,
                 offset,
                 rays: &mut rays,
             });
@@ -215,6 +221,7 @@ impl LaneTracer<'_> {
                     next.places.push(Arrival {
                         point: ray.ray_position(hits.t[lane]),
                         direction: ray.ray_direction(),
+                        t: hits.t[lane],
                         triangle: hits.triangle[lane],
                     });
                     let Draws { photon, drawn, .. } = arrivals.draws[*place];

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
+use crate::scene::Scene;
 use crate::scene::intersection_state::IntersectionState;
 use crate::scene::lights::point_light::PointLight;
 use crate::scene::ray::Ray;
-use crate::scene::{LARGE_EPSILON, Scene};
 
 /// Computes direct light with shadow rays.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,9 @@ impl<'scene> BackwardRenderer<'scene> {
         let mesh_object = &scene.mesh_objects()[state.primitive(scene).parent_mesh_object];
         let diffuse_response = mesh_object.material.base_diffuse_reflection();
         let normal = state.compute_normal(scene);
-        let point = state.intersection_point() + LARGE_EPSILON * normal;
+        let point = state.intersection_point();
+        let offset = scene.offset(state.intersected_primitive, point, state.intersection_t);
+        let point = point + offset * normal;
         let to_light = light.position - point;
         let distance = to_light.length();
         let mut shadow_ray = Ray::new(point, to_light / distance);

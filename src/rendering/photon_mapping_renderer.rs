@@ -149,7 +149,12 @@ impl PhotonMappingRenderer {
 
         // The handout names no offset. Without one, two in five scattered photons would hit the
         // triangle they leave, so they start where the framework starts its shadow rays.
-        let start = self.reading.offset.start(intersection_point, normal, world_direction);
+        let needed = self.stored_scene.offset(
+            state.intersected_primitive,
+            intersection_point,
+            state.intersection_t,
+        );
+        let start = self.reading.offset.start(intersection_point, normal, world_direction, needed);
         let diffuse_reflection_ray = Ray::new(start, world_direction);
         self.trace_photon(
             photon_map,

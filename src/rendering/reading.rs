@@ -2,8 +2,6 @@
 
 use glam::Vec3;
 
-use crate::scene::LARGE_EPSILON;
-
 /// What becomes of the tangent and bitangent of equations (7) and (8).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentBasis {
@@ -20,6 +18,8 @@ pub enum TangentBasis {
 /// Where the scattered ray starts, seen from the point hit. Lengths are in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
+    /// As far along the normal as this hit needs: [`crate::scene::Scene::offset`].
+    AsNeeded,
     /// At the point itself.
     None,
     /// This far along the normal.
@@ -29,10 +29,11 @@ pub enum Offset {
 }
 
 impl Offset {
-    /// The start of a ray that leaves `point`, where the unit normal is `normal`, along the unit
-    /// vector `direction`.
-    pub fn start(self, point: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
+    /// The start of a ray that leaves `point`, where the unit normal is `normal` and an offset of
+    /// `needed` is needed, along the unit vector `direction`.
+    pub fn start(self, point: Vec3, normal: Vec3, direction: Vec3, needed: f32) -> Vec3 {
         match self {
+            Self::AsNeeded => point + needed * normal,
             Self::None => point,
             Self::AlongNormal(length) => point + length * normal,
             Self::AlongDirection(length) => point + length * direction,
@@ -55,12 +56,13 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The reading of the reference: normalised, with the framework's offset of shadow rays.
+    /// The reading of the reference: normalised, with the framework's offset of shadow rays where
+    /// that is small enough.
     pub const REFERENCE: Self = Self {
         tangent_basis: TangentBasis::Normalised,
         fallback_threshold: 0.99,
         fallback_axis: Vec3::Y,
-        offset: Offset::AlongNormal(LARGE_EPSILON),
+        offset: Offset::AsNeeded,
     };
 
     /// As the reference, but with t and b as equations (7) and (8) have them.

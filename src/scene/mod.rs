@@ -12,7 +12,7 @@ pub mod tree;
 pub mod triangle;
 
 use frame::Frame;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use intersection_state::IntersectionState;
 use lights::point_light::PointLight;
 use mesh_object::MeshObject;
@@ -20,9 +20,16 @@ use ray::Ray;
 use tree::Tree;
 use triangle::{ShearedRay, Triangle};
 
-/// The offset of a ray that leaves a surface, along the surface's normal, in scene space. Without
-/// it, rounding puts every other start just below the surface and the ray meets it again.
+/// The framework's offset of a ray that leaves a surface, along the surface's normal, in scene space.
+/// Without it, rounding puts every other start just below the surface and the ray meets it again.
 pub const LARGE_EPSILON: f32 = 1e-5;
+
+/// Where all triangles have an edge as long as this, rays start where the framework starts them. The
+/// handout's have 0.85.
+const ORDINARY_EDGE: f32 = 0.5;
+
+/// A thin triangle rounds a point as if it were larger, but not by more than this.
+const THINNEST: f32 = 16.0;
 
 /// Mesh objects, their triangles, and the lights, z up, in the space in which they are traced. For the
 /// handout's scene that is world space; see [`Frame`] for models of other sizes and places.
@@ -32,6 +39,10 @@ pub struct Scene {
     triangles: Vec<Triangle>,
     lights: Vec<PointLight>,
     frame: Frame,
+    /// For every triangle the length that rounds the points on it.
+    sizes: Vec<f32>,
+    /// The offset that is small beside every triangle.
+    epsilon: f32,
     /// Only for scenes of many triangles.
     tree: Option<Tree>,
 }
@@ -62,7 +73,14 @@ impl Scene {
         lights: Vec<PointLight>,
     ) -> Self {
         let tree = (triangles.len() > tree::FEW).then(|| Tree::new(&triangles));
-        Self { mesh_objects, triangles, lights, frame: Frame::WORLD, tree }
+        let edges = || triangles.iter().map(Triangle::longest_edge);
+        let epsilon = LARGE_EPSILON * (edges().fold(ORDINARY_EDGE, f32::min) / ORDINARY_EDGE);
+        let sizes = triangles.iter().zip(edges()).map(|(triangle, edge)| {
+            let thinness = edge / (2.0 * triangle.width());
+            edge * thinness.min(THINNEST)
+        });
+        let sizes = sizes.collect();
+        Self { mesh_objects, triangles, lights, frame: Frame::WORLD, sizes, epsilon, tree }
     }
 
     /// The mesh objects, in the model file's order.
@@ -83,6 +101,17 @@ impl Scene {
     /// Where the scene stands in the world.
     pub fn frame(&self) -> &Frame {
         &self.frame
+    }
+
+    /// How far along the normal a ray starts that leaves `triangle` at `point`, which a ray met at the
+    /// distance `t`: [`LARGE_EPSILON`] everywhere in the handout's scene.
+    ///
+    /// In a scene with much smaller triangles that would be a leap. There the offset shrinks in proportion
+    /// to the smallest, but never below what rounding may have done to the point: a few units in the last
+    /// place of the lengths it was computed from.
+    pub fn offset(&self, triangle: usize, point: Vec3, t: f32) -> f32 {
+        let lengths = point.abs().max_element() + 2.0 * t + self.sizes[triangle];
+        self.epsilon.max(2.0 * f32::EPSILON * lengths)
     }
 
     /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.

@@ -199,7 +199,13 @@ impl Reader {
             }
         }
         if self.model.triangles.is_empty() {
-            return Err(self.place.error("expected at least one face of three corners ('f')"));
+            let degenerate: usize = self.facets_of_mesh.iter().sum();
+            let found = match degenerate {
+                0 => "found none".to_owned(),
+                _ => format!("found only degenerate ones ({degenerate})"),
+            };
+            let expected = "expected at least one face with an area ('f')";
+            return Err(self.place.error(format!("{expected}, {found}")));
         }
         Ok(std::mem::take(&mut self.model))
     }

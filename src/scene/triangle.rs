@@ -82,6 +82,22 @@ impl ShearedRay {
 }
 
 impl Triangle {
+    fn edges(&self) -> [Vec3; 3] {
+        let [a, b, c] = self.vertices;
+        [b - a, c - b, a - c]
+    }
+
+    /// The length of the longest edge.
+    pub fn longest_edge(&self) -> f32 {
+        self.edges().map(Vec3::length).into_iter().fold(0.0, f32::max)
+    }
+
+    /// The height over the longest edge.
+    pub fn width(&self) -> f32 {
+        let [a, b, _] = self.edges();
+        a.cross(b).length() / self.longest_edge()
+    }
+
     /// The distance t > 0 at which `ray` meets the triangle, from either side; `None` when it
     /// passes beside it, behind its start, or within its plane.
     ///

@@ -1,6 +1,8 @@
 //! Scenes and lists that several tests use.
 #![allow(dead_code, reason = "no test uses all of them")]
 
+pub mod judge;
+
 use glam::{DVec3, Vec3};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::record::PhotonRecord;
@@ -20,12 +22,41 @@ pub fn handout(seed: u64, photon_count: u64) -> PhotonMappingRenderer {
 /// The handout's scene, every coordinate times `scale` and then moved by `shift` (world space), read
 /// from the text of a model file as a user's scene is.
 pub fn moved_handout(scale: f64, shift: DVec3, seed: u64, count: u64) -> PhotonMappingRenderer {
+    load(&handout_text(scale, shift), scale, shift, seed, count)
+}
+
+/// The handout's scene, moved by `shift`, over the middle of a square from -`extent` to `extent` that
+/// absorbs all photons.
+pub fn handout_over_a_square(
+    extent: f64,
+    shift: DVec3,
+    seed: u64,
+    count: u64,
+) -> PhotonMappingRenderer {
+    let text = handout_text(1.0, shift) + &square("square", extent, -1.0);
+    load(&text, 1.0, shift, seed, count)
+}
+
+/// The handout's scene, moved by `shift`, with a floor that reaches from -`extent` to `extent`.
+pub fn handout_on_a_plain(
+    extent: f64,
+    shift: DVec3,
+    seed: u64,
+    count: u64,
+) -> PhotonMappingRenderer {
+    let text = handout_text(1.0, shift);
+    let (boxes_and_wall, _) = text.split_once("o floor").unwrap();
+    let text = boxes_and_wall.to_owned() + &square("floor", extent, 0.0);
+    load(&text, 1.0, shift, seed, count)
+}
+
+/// The handout's model with y up: world (x, y, z) is (x, z, -y) there.
+fn handout_text(scale: f64, shift: DVec3) -> String {
+    let shift = [shift.x, shift.z, -shift.y];
     let mut text = String::new();
     for line in include_str!("../../src/assignment8/cornell_box.obj").lines() {
         if let Some(figures) = line.strip_prefix("v ") {
             let figures: Vec<f64> = figures.split(' ').map(|word| word.parse().unwrap()).collect();
-            // The model has y up: world (x, y, z) is (x, z, -y) there.
-            let shift = [shift.x, shift.z, -shift.y];
             let [x, y, z] = std::array::from_fn(|axis| figures[axis] * scale + shift[axis]);
             text += &format!("v {x} {y} {z}\n");
         } else {
@@ -33,12 +64,32 @@ pub fn moved_handout(scale: f64, shift: DVec3, seed: u64, count: u64) -> PhotonM
             text += "\n";
         }
     }
+    text
+}
+
+/// A square of the model that faces up.
+fn square(name: &str, extent: f64, height: f64) -> String {
+    let (e, h) = (extent, height);
+    format!(
+        "o {name}\nusemtl {name}\nv -{e} {h} {e}\nv {e} {h} {e}\nv {e} {h} -{e}\nv -{e} {h} -{e}\n\
+         f -4 -3 -2 -1\n"
+    )
+}
+
+fn load(
+    text: &str,
+    scale: f64,
+    shift: DVec3,
+    seed: u64,
+    photon_count: u64,
+) -> PhotonMappingRenderer {
     let materials = include_str!("../../src/assignment8/cornell_box.mtl");
-    let model = obj::parse(&text, |_| Ok(materials.to_owned())).unwrap();
+    let materials = format!("{materials}\nnewmtl square\nKd 0 0 0\n");
+    let model = obj::parse(text, |_| Ok(materials.clone())).unwrap();
     let light = assignment8::create_light();
     let light = ModelLight { position: light.position * scale + shift, ..light };
     let renderer = assignment8::create_renderer(Scene::from_model(model, &[light]));
-    PhotonMappingRenderer { seed, photon_count: count, ..renderer }
+    PhotonMappingRenderer { seed, photon_count, ..renderer }
 }
 
 /// A renderer of a closed cube from -1 to 1 whose walls all reflect `albedo`, with a light in its
