@@ -5,7 +5,7 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::chacha::{self, WORDS, number};
-use super::outlook::ShearedDirection;
+use super::outlook::{aim, rough_cell};
 
 /// How many photons a kernel call sends out. Their blocks fill half of a small first-level cache.
 pub const GROUP: usize = 128;
@@ -21,13 +21,20 @@ pub struct Emission {
     pub point: [[f32; GROUP]; 3],
     /// How many numbers were drawn; 0 when the block held no point in the sphere.
     pub drawn: [u32; GROUP],
-    /// The three words after them, if the block has them all.
+    /// The three words after them, if the block has them all, else zeros.
     pub next: [[u32; GROUP]; 3],
+    /// The [`rough_cell`] of the point.
+    pub cell: [u32; GROUP],
 }
 
 impl Default for Emission {
     fn default() -> Self {
-        Self { point: [[0.0; GROUP]; 3], drawn: [0; GROUP], next: [[0; GROUP]; 3] }
+        Self {
+            point: [[0.0; GROUP]; 3],
+            drawn: [0; GROUP],
+            next: [[0; GROUP]; 3],
+            cell: [0; GROUP],
+        }
     }
 }
 
@@ -49,7 +56,7 @@ impl NullaryFnOnce for Emit<'_> {
     #[inline(always)]
     fn call(self) {
         let words = self.words;
-        let Emission { point, drawn, next } = self.emission;
+        let Emission { point, drawn, next, cell } = self.emission;
         let mut photons = [0; GROUP];
         for (lane, photon) in photons.iter_mut().enumerate() {
             *photon = self.first.wrapping_add(lane as u32);
@@ -84,18 +91,19 @@ impl NullaryFnOnce for Emit<'_> {
             (xs[lane], ys[lane], zs[lane]) = (x, y, z);
             drawn[lane] = count;
             (next_0[lane], next_1[lane], next_2[lane]) = (n0, n1, n2);
+            cell[lane] = rough_cell(Vec3::new(x, y, z));
         }
     }
 }
 
-/// Directions of [`GROUP`] photons, and what the triangle test needs of them.
+/// Directions of [`GROUP`] photons, and what [`aim`] makes of them.
 #[derive(Clone, Debug)]
 pub struct Aims {
     /// The unit vectors, by coordinate.
     pub direction: [[f32; GROUP]; 3],
-    /// [`ShearedDirection::cell`].
+    /// The cells.
     pub cell: [u32; GROUP],
-    /// [`ShearedDirection::shear`], by coordinate.
+    /// The shears, by coordinate.
     pub shear: [[f32; GROUP]; 3],
 }
 
@@ -105,7 +113,7 @@ impl Default for Aims {
     }
 }
 
-/// Normalises the points of an emission.
+/// Normalises points in the sphere.
 pub struct Aim<'a> {
     /// The points.
     pub point: &'a [[f32; GROUP]; 3],
@@ -122,10 +130,10 @@ impl NullaryFnOnce for Aim<'_> {
         let Aims { direction: [dx, dy, dz], cell, shear: [sx, sy, sz] } = self.aims;
         for lane in 0..GROUP {
             let direction = Vec3::new(x[lane], y[lane], z[lane]).normalize();
-            let sheared = ShearedDirection::new(direction);
+            let (cell_of_lane, shear) = aim(direction);
             (dx[lane], dy[lane], dz[lane]) = (direction.x, direction.y, direction.z);
-            cell[lane] = sheared.cell;
-            (sx[lane], sy[lane], sz[lane]) = (sheared.shear.x, sheared.shear.y, sheared.shear.z);
+            cell[lane] = cell_of_lane;
+            (sx[lane], sy[lane], sz[lane]) = (shear.x, shear.y, shear.z);
         }
     }
 }

@@ -19,19 +19,22 @@
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
 //! photon's direction are 0 or at least 2^-24, so they cannot where each coordinate is 0 or at least
 //! 2^-25; a triangle with smaller ones is in every cell.
+//!
+//! A photon straight from the light is not stored, so one that is absorbed where it hits first need
+//! not be followed there: [`Outlook::may_go_on`] plays its roulette against the most that anything in
+//! its cell reflects. [`super::first_hit`] tests those that remain.
 
 use glam::Vec3;
 
-use super::closest_hit::{NONE, mask};
 use crate::scene::Scene;
-use crate::scene::triangle::{ShearedRay, meet};
+use crate::scene::triangle::ShearedRay;
 
 /// Cells along the edge of a face of the cube; a power of two, so that the cells' ends are exact.
 const EDGE: usize = 32;
 /// How many cells there are.
 const CELLS: usize = 6 * EDGE * EDGE;
 /// How far a cell reaches over its ends, 2^-16: four times what [`step`] moves a shear by shrinking
-/// the grid and rounding.
+/// the grid and rounding, and [`rough_cell`] by five roundings more.
 const MARGIN: f32 = 1.0 / 65_536.0;
 /// Coordinates below this, 2^-25, may underflow in the edge functions.
 const SMALLEST: f32 = 1.0 / 33_554_432.0;
@@ -41,113 +44,78 @@ const LARGEST: f32 = 1e9;
 /// The triangles of a scene as one light sees them.
 #[derive(Clone, Debug)]
 pub struct Outlook {
-    /// The triangles seen from the light, once for each axis that a ray runs along.
-    seen: [Vec<Seen>; 3],
+    /// The corners seen from the light, once for each axis that a ray runs along.
+    seen: [Vec<[Vec3; 3]>; 3],
     /// The triangles of cell c are `triangles[starts[c]..starts[c + 1]]`, in ascending order.
     starts: Vec<u32>,
     triangles: Vec<u32>,
-    occupied: Vec<u8>,
+    /// The greatest probability of reflection that a photon through the cell may meet.
+    reflection: Vec<f32>,
 }
 
-/// The corners of a triangle, by coordinate. The fourth place fills a vector of four; it holds the
-/// first corner once more.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
-struct Seen([[f32; 4]; 3]);
-
-impl Seen {
-    fn new([a, b, c]: &[Vec3; 3]) -> Self {
-        Self([0, 1, 2].map(|axis| [a[axis], b[axis], c[axis], a[axis]]))
-    }
-
-    /// The test of [`meet`] without its branches, since which of two triangles a ray meets cannot be
-    /// predicted: whether, and at which distance.
-    #[inline(always)]
-    fn meet(&self, shear: Vec3) -> (bool, f32) {
-        let Self([x, y, z]) = self;
-        let (mut sx, mut sy, mut sz) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        for corner in 0..4 {
-            sx[corner] = x[corner] - shear.x * z[corner];
-            sy[corner] = y[corner] - shear.y * z[corner];
-            sz[corner] = shear.z * z[corner];
-        }
-        // u, v, w, and u once more.
-        let (px, py) = ([sx[2], sx[0], sx[1], sx[2]], [sy[2], sy[0], sy[1], sy[2]]);
-        let (qx, qy) = ([sx[1], sx[2], sx[0], sx[1]], [sy[1], sy[2], sy[0], sy[1]]);
-        let mut edges = [0.0; 4];
-        for edge in 0..4 {
-            edges[edge] = px[edge] * qy[edge] - py[edge] * qx[edge];
-        }
-        let (mut is_negative, mut is_positive, mut is_zero) = (false, false, false);
-        for edge in edges {
-            is_negative |= edge < 0.0;
-            is_positive |= edge > 0.0;
-            is_zero |= edge == 0.0;
-        }
-        if is_zero {
-            let second_look = meet([0, 1, 2].map(|c| Vec3::new(sx[c], sy[c], sz[c])));
-            return (second_look.is_some(), second_look.unwrap_or(0.0));
-        }
-        let [u, v, w, _] = edges;
-        let determinant = u + v + w;
-        let t = (u * sz[0] + v * sz[1] + w * sz[2]) / determinant;
-        (!(is_negative & is_positive) & (determinant != 0.0) & (t > 0.0), t)
-    }
-}
-
-/// A ray from the light, ready for the triangle test.
-#[derive(Clone, Copy, Debug)]
-pub struct ShearedDirection {
-    /// The cell of the direction.
-    pub cell: u32,
-    /// The shears along x and y, and the reciprocal of the direction along z.
-    pub shear: Vec3,
-}
-
-impl ShearedDirection {
-    /// Prepares the unit vector `direction`, as [`ShearedRay::new`] does.
-    #[inline(always)]
-    pub fn new(direction: Vec3) -> Self {
-        let Vec3 { x, y, z } = direction;
-        let size = direction.abs();
-        // The choice of `ShearedRay::axes`, without its branches.
-        let along_x = size.x >= size.y && size.x >= size.z;
-        let along_y = size.y >= size.z;
-        let turned = Vec3::new(
-            if along_x {
-                y
-            } else if along_y {
-                z
-            } else {
-                x
-            },
-            if along_x {
-                z
-            } else if along_y {
-                x
-            } else {
-                y
-            },
-            if along_x {
-                x
-            } else if along_y {
-                y
-            } else {
-                z
-            },
-        );
-        let axis = if along_x {
-            0
+/// The face of the cube through which the direction `direction` of any length leaves, and the
+/// direction in the order of a ray's axes: the choice of `ShearedRay::axes`, without its branches.
+#[inline(always)]
+fn turn(direction: Vec3) -> (i32, Vec3) {
+    let Vec3 { x, y, z } = direction;
+    let size = direction.abs();
+    // Both comparisons always, where `&&` would branch.
+    let along_x = (size.x >= size.y) & (size.x >= size.z);
+    let along_y = size.y >= size.z;
+    let turned = Vec3::new(
+        if along_x {
+            y
         } else if along_y {
-            1
+            z
         } else {
-            2
-        };
-        let face = 2 * axis + i32::from(turned.z < 0.0);
-        let shear = Vec3::new(turned.x / turned.z, turned.y / turned.z, 1.0 / turned.z);
-        let cell = (face * EDGE as i32 + step(shear.y)) * EDGE as i32 + step(shear.x);
-        Self { cell: cell as u32, shear }
-    }
+            x
+        },
+        if along_x {
+            z
+        } else if along_y {
+            x
+        } else {
+            y
+        },
+        if along_x {
+            x
+        } else if along_y {
+            y
+        } else {
+            z
+        },
+    );
+    let axis = if along_x {
+        0
+    } else if along_y {
+        1
+    } else {
+        2
+    };
+    (2 * axis + i32::from(turned.z < 0.0), turned)
+}
+
+#[inline(always)]
+fn cell_of(face: i32, shear_x: f32, shear_y: f32) -> u32 {
+    ((face * EDGE as i32 + step(shear_y)) * EDGE as i32 + step(shear_x)) as u32
+}
+
+/// The cell of the unit vector `direction` and what [`ShearedRay::new`] makes of it: the shears
+/// along x and y, and the reciprocal of the direction along z.
+#[inline(always)]
+pub fn aim(direction: Vec3) -> (u32, Vec3) {
+    let (face, turned) = turn(direction);
+    let shear = Vec3::new(turned.x / turned.z, turned.y / turned.z, 1.0 / turned.z);
+    (cell_of(face, shear.x, shear.y), shear)
+}
+
+/// The cell of a direction of any length for [`Outlook::may_go_on`], which allows for the roundings
+/// that are saved here.
+#[inline(always)]
+pub fn rough_cell(direction: Vec3) -> u32 {
+    let (face, turned) = turn(direction);
+    let reciprocal = 1.0 / turned.z;
+    cell_of(face, turned.x * reciprocal, turned.y * reciprocal)
 }
 
 /// The place along an edge of the grid of the shear `shear`, in [-1, 1].
@@ -163,8 +131,9 @@ fn step(shear: f32) -> i32 {
 }
 
 impl Outlook {
-    /// The triangles of `scene` as seen from `origin`.
-    pub fn new(scene: &Scene, origin: Vec3) -> Self {
+    /// The triangles of `scene` as seen from `origin`; `reflection` is each one's probability of
+    /// reflection.
+    pub fn new(scene: &Scene, origin: Vec3, reflection: &[f32]) -> Self {
         let turned = |[x, y, z]: [usize; 3]| -> Vec<[Vec3; 3]> {
             let turn = |corner: Vec3| {
                 let from_origin = corner - origin;
@@ -172,12 +141,12 @@ impl Outlook {
             };
             scene.triangles().iter().map(|triangle| triangle.vertices.map(turn)).collect()
         };
-        let corners = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| turned(ShearedRay::axes(axis)));
+        let seen = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| turned(ShearedRay::axes(axis)));
         let mut starts = vec![0];
         let mut triangles = Vec::new();
         for face in 0..6 {
             let is_negative = face % 2 == 1;
-            let corners = &corners[face / 2];
+            let corners = &seen[face / 2];
             let of_face =
                 may_be_met(0..corners.len() as u32, corners, is_negative, [-1.0, 1.0], [-1.0, 1.0]);
             for row in 0..EDGE {
@@ -200,37 +169,45 @@ impl Outlook {
                 }
             }
         }
-        let occupied = starts.windows(2).map(|ends| u8::from(ends[0] < ends[1])).collect();
         debug_assert_eq!(starts.len(), CELLS + 1);
-        let seen = corners.map(|corners| corners.iter().map(Seen::new).collect());
-        Self { seen, starts, triangles, occupied }
+        let greatest = |places: &mut dyn Iterator<Item = f32>| places.fold(0.0, f32::max);
+        let of_scene = greatest(&mut reflection.iter().copied());
+        let of_cell = |cell: usize| {
+            let is_at_end = |step: usize| step == 0 || step == EDGE - 1;
+            if is_at_end(cell % EDGE) || is_at_end(cell / EDGE % EDGE) {
+                // Rounding may have led a photon of another face here.
+                return of_scene;
+            }
+            let of_cell = &triangles[starts[cell] as usize..starts[cell + 1] as usize];
+            greatest(&mut of_cell.iter().map(|triangle| reflection[*triangle as usize]))
+        };
+        let reflection = (0..CELLS).map(of_cell).collect();
+        Self { seen, starts, triangles, reflection }
     }
 
-    /// 1 if a ray through `cell` may meet anything, else 0.
+    /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there when
+    /// its roulette draws `number`.
     #[inline(always)]
-    pub fn occupied(&self, cell: u32) -> u8 {
-        self.occupied[cell as usize]
+    pub fn may_go_on(&self, cell: u32, number: f32) -> bool {
+        number < self.reflection[cell as usize]
     }
 
-    /// The closest triangle that a ray in `direction` meets and its distance: what
-    /// [`Scene::trace`] would say.
+    /// The triangles that a ray through `cell` may meet, in ascending order.
     #[inline(always)]
-    pub fn closest(&self, direction: ShearedDirection) -> Option<(u32, f32)> {
-        let ShearedDirection { cell, shear } = direction;
+    pub fn candidates(&self, cell: u32) -> &[u32] {
         let cell = cell as usize;
-        let seen = &self.seen[cell / (2 * EDGE * EDGE)];
-        let mut closest_t = f32::INFINITY;
-        let mut closest = NONE;
-        let candidates =
-            &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        for &triangle in candidates {
-            let (is_met, t) = seen[triangle as usize].meet(shear);
-            let is_closer = mask(is_met & (t < closest_t));
-            closest_t =
-                f32::from_bits((t.to_bits() & is_closer) | (closest_t.to_bits() & !is_closer));
-            closest = (triangle & is_closer) | (closest & !is_closer);
-        }
-        (closest != NONE).then_some((closest, closest_t))
+        &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// The axis along which rays through `cell` run.
+    #[inline(always)]
+    pub fn axis(cell: u32) -> usize {
+        cell as usize / (2 * EDGE * EDGE)
+    }
+
+    /// The corners of `triangle` as rays along `axis` see them from the light, not yet sheared.
+    pub fn seen(&self, axis: usize, triangle: u32) -> &[Vec3; 3] {
+        &self.seen[axis][triangle as usize]
     }
 }
 

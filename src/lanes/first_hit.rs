@@ -1,0 +1,156 @@
+//! What photons straight from a light meet: the test of [`crate::scene::triangle`] with photons in
+//! the lanes that all may meet the same triangle.
+//!
+//! Photons wait in a queue of the triangle until the lanes are full. So a triangle's corners are
+//! loaded once for many photons, and nothing depends on which of two triangles a photon meets, which
+//! no processor could predict.
+
+use glam::Vec3;
+use pulp::NullaryFnOnce;
+
+use super::closest_hit::{NONE, mask};
+use super::outlook::Outlook;
+use super::width::Width;
+use crate::scene::triangle::meet;
+
+/// How many photons wait before they are tested.
+const LANES: usize = 16;
+
+/// A photon's closest hit so far.
+#[derive(Clone, Copy, Debug)]
+pub struct FirstHit {
+    /// The distance.
+    pub t: f32,
+    /// The triangle, or [`NONE`].
+    pub triangle: u32,
+}
+
+/// Photons that wait to be tested with the same triangle.
+#[derive(Clone, Debug)]
+struct Queue {
+    shear: [[f32; LANES]; 3],
+    photon: [u32; LANES],
+    waiting: usize,
+}
+
+/// The search for what photons of one light meet.
+#[derive(Clone, Debug)]
+pub struct FirstHits<'a> {
+    outlook: &'a Outlook,
+    width: Width,
+    /// By axis, then triangle.
+    queues: Vec<Queue>,
+    triangles: usize,
+    /// What each photon met.
+    pub hits: Vec<FirstHit>,
+}
+
+impl<'a> FirstHits<'a> {
+    /// A search for `photons` photons that see `outlook`, in a scene of `triangles` triangles.
+    pub fn new(outlook: &'a Outlook, width: Width, triangles: usize, photons: usize) -> Self {
+        let empty = Queue { shear: [[1.0; LANES]; 3], photon: [0; LANES], waiting: 0 };
+        Self {
+            outlook,
+            width,
+            queues: vec![empty; 3 * triangles],
+            triangles,
+            hits: vec![FirstHit { t: f32::INFINITY, triangle: NONE }; photons],
+        }
+    }
+
+    /// Looks for what `photon` meets in the direction that [`super::outlook::aim`] gave.
+    #[inline(always)]
+    pub fn add(&mut self, photon: u32, cell: u32, shear: Vec3) {
+        let axis = Outlook::axis(cell);
+        for &triangle in self.outlook.candidates(cell) {
+            let queue = &mut self.queues[axis * self.triangles + triangle as usize];
+            let lane = queue.waiting % LANES;
+            for (column, shear) in queue.shear.iter_mut().zip(shear.to_array()) {
+                column[lane] = shear;
+            }
+            queue.photon[lane] = photon;
+            queue.waiting = lane + 1;
+            if queue.waiting == LANES {
+                self.test(axis, triangle);
+            }
+        }
+    }
+
+    /// Tests those that still wait.
+    pub fn finish(&mut self) {
+        for axis in 0..3 {
+            for triangle in 0..self.triangles {
+                self.test(axis, triangle as u32);
+            }
+        }
+    }
+
+    fn test(&mut self, axis: usize, triangle: u32) {
+        let queue = &mut self.queues[axis * self.triangles + triangle as usize];
+        if queue.waiting == 0 {
+            return;
+        }
+        let corners = self.outlook.seen(axis, triangle);
+        let (mut t, mut is_doubtful) = ([0.0; LANES], [0; LANES]);
+        self.width.run(Meet {
+            corners,
+            shear: &queue.shear,
+            t: &mut t,
+            is_doubtful: &mut is_doubtful,
+        });
+        for lane in 0..queue.waiting {
+            if is_doubtful[lane] != 0 {
+                let shear = Vec3::from_array([0, 1, 2].map(|c| queue.shear[c][lane]));
+                let sheared = |c: Vec3| {
+                    Vec3::new(c.x - shear.x * c.z, c.y - shear.y * c.z, shear.z * c.z)
+                };
+                t[lane] = meet(corners.map(sheared)).unwrap_or(f32::INFINITY);
+            }
+            let hit = &mut self.hits[queue.photon[lane] as usize];
+            let is_tie = (t[lane] == hit.t) & (triangle < hit.triangle);
+            let is_closer = mask((t[lane] < hit.t) | (is_tie & (hit.triangle != NONE)));
+            let kept = hit.t.to_bits() & !is_closer;
+            hit.t = f32::from_bits((t[lane].to_bits() & is_closer) | kept);
+            hit.triangle = (triangle & is_closer) | (hit.triangle & !is_closer);
+        }
+        queue.waiting = 0;
+    }
+}
+
+struct Meet<'a> {
+    corners: &'a [Vec3; 3],
+    shear: &'a [[f32; LANES]; 3],
+    /// Where the distances go; infinite where the triangle is not met.
+    t: &'a mut [f32; LANES],
+    /// Not 0 where an edge function was rounded to zero: there `meet` looks again.
+    is_doubtful: &'a mut [u32; LANES],
+}
+
+impl NullaryFnOnce for Meet<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { corners: [a, b, c], shear: [shear_x, shear_y, shear_z], t, is_doubtful } = self;
+        for lane in 0..LANES {
+            let (sx, sy, sz) = (shear_x[lane], shear_y[lane], shear_z[lane]);
+            let (ax, ay, az) = (a.x - sx * a.z, a.y - sy * a.z, sz * a.z);
+            let (bx, by, bz) = (b.x - sx * b.z, b.y - sy * b.z, sz * b.z);
+            let (cx, cy, cz) = (c.x - sx * c.z, c.y - sy * c.z, sz * c.z);
+            let u = cx * by - cy * bx;
+            let v = ax * cy - ay * cx;
+            let w = bx * ay - by * ax;
+            let is_negative = mask(u < 0.0) | mask(v < 0.0) | mask(w < 0.0);
+            let is_positive = mask(u > 0.0) | mask(v > 0.0) | mask(w > 0.0);
+            let determinant = u + v + w;
+            let distance = (u * az + v * bz + w * cz) / determinant;
+            let is_met = !(is_negative & is_positive)
+                & mask(determinant != 0.0)
+                & mask(distance > 0.0);
+            t[lane] = f32::from_bits(
+                (distance.to_bits() & is_met) | (f32::INFINITY.to_bits() & !is_met),
+            );
+            is_doubtful[lane] = mask(u == 0.0) | mask(v == 0.0) | mask(w == 0.0);
+        }
+    }
+}
