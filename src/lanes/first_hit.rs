@@ -101,9 +101,8 @@ impl<'a> FirstHits<'a> {
         for lane in 0..queue.waiting {
             if is_doubtful[lane] != 0 {
                 let shear = Vec3::from_array([0, 1, 2].map(|c| queue.shear[c][lane]));
-                let sheared = |c: Vec3| {
-                    Vec3::new(c.x - shear.x * c.z, c.y - shear.y * c.z, shear.z * c.z)
-                };
+                let sheared =
+                    |c: Vec3| Vec3::new(c.x - shear.x * c.z, c.y - shear.y * c.z, shear.z * c.z);
                 t[lane] = meet(corners.map(sheared)).unwrap_or(f32::INFINITY);
             }
             let hit = &mut self.hits[queue.photon[lane] as usize];
@@ -144,12 +143,10 @@ impl NullaryFnOnce for Meet<'_> {
             let is_positive = mask(u > 0.0) | mask(v > 0.0) | mask(w > 0.0);
             let determinant = u + v + w;
             let distance = (u * az + v * bz + w * cz) / determinant;
-            let is_met = !(is_negative & is_positive)
-                & mask(determinant != 0.0)
-                & mask(distance > 0.0);
-            t[lane] = f32::from_bits(
-                (distance.to_bits() & is_met) | (f32::INFINITY.to_bits() & !is_met),
-            );
+            let is_met =
+                !(is_negative & is_positive) & mask(determinant != 0.0) & mask(distance > 0.0);
+            t[lane] =
+                f32::from_bits((distance.to_bits() & is_met) | (f32::INFINITY.to_bits() & !is_met));
             is_doubtful[lane] = mask(u == 0.0) | mask(v == 0.0) | mask(w == 0.0);
         }
     }

@@ -33,6 +33,10 @@ use crate::scene::triangle::ShearedRay;
 const EDGE: usize = 32;
 /// How many cells there are.
 const CELLS: usize = 6 * EDGE * EDGE;
+/// The cell of a photon whose direction is not known yet.
+pub const UNKNOWN: u32 = CELLS as u32;
+/// [`CELLS`] and [`UNKNOWN`], with room up to the next power of two.
+const ROUGH_CELLS: usize = (CELLS + 1).next_power_of_two();
 /// How far a cell reaches over its ends, 2^-16: four times what [`step`] moves a shear by shrinking
 /// the grid and rounding, and [`rough_cell`] by five roundings more.
 const MARGIN: f32 = 1.0 / 65_536.0;
@@ -49,8 +53,9 @@ pub struct Outlook {
     /// The triangles of cell c are `triangles[starts[c]..starts[c + 1]]`, in ascending order.
     starts: Vec<u32>,
     triangles: Vec<u32>,
-    /// The greatest probability of reflection that a photon through the cell may meet.
-    reflection: Vec<f32>,
+    /// The greatest probability of reflection that a photon through the cell may meet, in 128ths,
+    /// rounded up: a byte a cell leaves room in the first-level cache.
+    reflection: Box<[u8; ROUGH_CELLS]>,
 }
 
 /// The face of the cube through which the direction `direction` of any length leaves, and the
@@ -174,22 +179,26 @@ impl Outlook {
         let of_scene = greatest(&mut reflection.iter().copied());
         let of_cell = |cell: usize| {
             let is_at_end = |step: usize| step == 0 || step == EDGE - 1;
-            if is_at_end(cell % EDGE) || is_at_end(cell / EDGE % EDGE) {
-                // Rounding may have led a photon of another face here.
+            if cell >= CELLS || is_at_end(cell % EDGE) || is_at_end(cell / EDGE % EDGE) {
+                // At the ends, rounding may have led a photon of another face here.
                 return of_scene;
             }
             let of_cell = &triangles[starts[cell] as usize..starts[cell + 1] as usize];
             greatest(&mut of_cell.iter().map(|triangle| reflection[*triangle as usize]))
         };
-        let reflection = (0..CELLS).map(of_cell).collect();
+        let of_cells = Box::new(std::array::from_fn(|cell| {
+            (of_cell(cell) * 128.0).ceil().clamp(0.0, 128.0) as u8
+        }));
+        let reflection = of_cells;
         Self { seen, starts, triangles, reflection }
     }
 
     /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there when
-    /// its roulette draws `number`.
+    /// its roulette's number is that of `word`.
     #[inline(always)]
-    pub fn may_go_on(&self, cell: u32, number: f32) -> bool {
-        number < self.reflection[cell as usize]
+    pub fn may_go_on(&self, cell: u32, word: u32) -> bool {
+        // The number is at least this many 128ths.
+        word >> 25 < u32::from(self.reflection[cell as usize % ROUGH_CELLS])
     }
 
     /// The triangles that a ray through `cell` may meet, in ascending order.

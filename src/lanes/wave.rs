@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::chacha::{self, number};
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
-use super::emission::{self, Aim, Aims, Emission, Emit, is_in_sphere};
+use super::emission::{self, Aim, Aims, Emission, Emit, coordinate, is_in_sphere};
 use super::first_hit::FirstHits;
 use super::outlook::Outlook;
 use super::scattering::Scatter;
@@ -126,7 +126,6 @@ impl LaneTracer<'_> {
     /// directions that are not yet normalised.
     fn depart(&self, outlook: &Outlook, photons: Range<u64>) -> Vec<Departure> {
         let mut emission = Emission::default();
-        let mut words = [[0; emission::GROUP]; chacha::WORDS];
         // Of the handout's photons, one in five.
         let expected = (photons.end - photons.start) as usize / 4;
         let mut departures: Vec<Departure> = Vec::with_capacity(expected);
@@ -136,23 +135,25 @@ impl LaneTracer<'_> {
             let count = (photons.end - first).min(emission::GROUP as u64) as usize;
             let first = first as u32;
             let seed = self.renderer.seed;
-            self.width.run(Emit { seed, first, words: &mut words, emission: &mut emission });
+            self.width.run(Emit { seed, first, emission: &mut emission });
             // Without a branch, since which photons these are cannot be predicted.
             let mut lanes = [0; emission::GROUP];
             let mut departing = 0;
-            for lane in 0..count {
-                lanes[departing] = lane;
-                let roulette = number(emission.next[0][lane]);
-                let may_go_on = outlook.may_go_on(emission.cell[lane], roulette);
-                departing += usize::from(may_go_on | (emission.drawn[lane] == 0));
+            for (lane, (cell, roulette)) in emission.cell.iter().zip(&emission.next[0]).enumerate()
+            {
+                lanes[departing % emission::GROUP] = lane as u8;
+                departing += usize::from(outlook.may_go_on(*cell, *roulette) & (lane < count));
             }
-            departures.extend(lanes[..departing].iter().map(|&lane| Departure {
-                direction: Vec3::from_array([0, 1, 2].map(|c| emission.point[c][lane])),
-                draws: Draws {
-                    photon: first.wrapping_add(lane as u32),
-                    drawn: emission.drawn[lane],
-                    words: [0, 1, 2].map(|n| emission.next[n][lane]),
-                },
+            departures.extend(lanes[..departing].iter().map(|&lane| {
+                let at = usize::from(lane) % emission::GROUP;
+                Departure {
+                    direction: Vec3::from_array([0, 1, 2].map(|c| emission.point[c][at])),
+                    draws: Draws {
+                        photon: first.wrapping_add(lane.into()),
+                        drawn: emission.drawn[at],
+                        words: [0, 1, 2].map(|n| emission.next[n][at]),
+                    },
+                }
             }));
             let places = departures.len() - departing..departures.len();
             again.extend(places.filter(|place| departures[*place].draws.drawn == 0));
@@ -185,7 +186,7 @@ impl LaneTracer<'_> {
             for at in 0..tries.len() {
                 let mut draws = tries[at];
                 draws.drawn += 3;
-                let point = Vec3::from_array(draws.words.map(|word| 2.0 * number(word) - 1.0));
+                let point = Vec3::from_array(draws.words.map(coordinate));
                 let departure = &mut departures[places[at]];
                 (departure.direction, departure.draws.drawn) = (point, draws.drawn);
                 (tries[remaining], places[remaining]) = (draws, places[at]);
