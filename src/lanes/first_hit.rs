@@ -8,7 +8,7 @@
 use glam::Vec3;
 use pulp::NullaryFnOnce;
 
-use super::closest_hit::{NONE, mask};
+use super::closest_hit::{NONE, greatest, least, mask};
 use super::outlook::Outlook;
 use super::width::Width;
 use crate::scene::triangle::meet;
@@ -121,7 +121,7 @@ struct Meet<'a> {
     shear: &'a [[f32; LANES]; 3],
     /// Where the distances go; infinite where the triangle is not met.
     t: &'a mut [f32; LANES],
-    /// Not 0 where an edge function was rounded to zero: there `meet` looks again.
+    /// Not 0 where an edge function that decides was rounded to zero: there `meet` looks again.
     is_doubtful: &'a mut [u32; LANES],
 }
 
@@ -139,15 +139,12 @@ impl NullaryFnOnce for Meet<'_> {
             let u = cx * by - cy * bx;
             let v = ax * cy - ay * cx;
             let w = bx * ay - by * ax;
-            let is_negative = mask(u < 0.0) | mask(v < 0.0) | mask(w < 0.0);
-            let is_positive = mask(u > 0.0) | mask(v > 0.0) | mask(w > 0.0);
-            let determinant = u + v + w;
-            let distance = (u * az + v * bz + w * cz) / determinant;
-            let is_met =
-                !(is_negative & is_positive) & mask(determinant != 0.0) & mask(distance > 0.0);
+            let (least, greatest) = (least(u, v, w), greatest(u, v, w));
+            let distance = (u * az + v * bz + w * cz) / (u + v + w);
+            let is_met = !(mask(least < 0.0) & mask(greatest > 0.0)) & mask(distance > 0.0);
             t[lane] =
                 f32::from_bits((distance.to_bits() & is_met) | (f32::INFINITY.to_bits() & !is_met));
-            is_doubtful[lane] = mask(u == 0.0) | mask(v == 0.0) | mask(w == 0.0);
+            is_doubtful[lane] = mask(least == 0.0) | mask(greatest == 0.0);
         }
     }
 }
