@@ -24,6 +24,8 @@
 //! not be followed there: [`Outlook::may_go_on`] plays its roulette against the most that anything in
 //! its cell reflects. [`super::first_hit`] tests those that remain.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
 use crate::scene::Scene;
@@ -50,8 +52,8 @@ const LARGEST: f32 = 1e9;
 pub struct Outlook {
     /// The corners seen from the light, once for each axis that a ray runs along.
     seen: [Vec<[Vec3; 3]>; 3],
-    /// The triangles of cell c are `triangles[starts[c]..starts[c + 1]]`, in ascending order.
-    starts: Vec<u32>,
+    /// Of each cell, where in `triangles` its triangles are, in ascending order.
+    cells: Vec<Range<u32>>,
     triangles: Vec<u32>,
     /// The greatest probability of reflection that a photon through the cell may meet, in 128ths,
     /// rounded up: a byte a cell leaves room in the first-level cache.
@@ -147,34 +149,18 @@ impl Outlook {
             scene.triangles().iter().map(|triangle| triangle.vertices.map(turn)).collect()
         };
         let seen = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| turned(ShearedRay::axes(axis)));
-        let mut starts = vec![0];
+        let mut cells = vec![0_u32..0; CELLS];
         let mut triangles = Vec::new();
         for face in 0..6 {
-            let is_negative = face % 2 == 1;
             let corners = &seen[face / 2];
-            let of_face =
-                may_be_met(0..corners.len() as u32, corners, is_negative, [-1.0, 1.0], [-1.0, 1.0]);
-            for row in 0..EDGE {
-                let of_row = may_be_met(
-                    of_face.iter().copied(),
-                    corners,
-                    is_negative,
-                    [-1.0, 1.0],
-                    ends(row),
-                );
-                for column in 0..EDGE {
-                    triangles.extend(may_be_met(
-                        of_row.iter().copied(),
-                        corners,
-                        is_negative,
-                        ends(column),
-                        ends(row),
-                    ));
-                    starts.push(triangles.len() as u32);
-                }
-            }
+            let face = Face { corners, is_negative: face % 2 == 1, first_cell: face * EDGE * EDGE };
+            let all: Vec<u32> = (0..corners.len() as u32).collect();
+            face.divide(&all, [0, 0], EDGE, &mut |cell, of_cell| {
+                let start = triangles.len();
+                triangles.extend_from_slice(of_cell);
+                cells[cell] = start as u32..triangles.len() as u32;
+            });
         }
-        debug_assert_eq!(starts.len(), CELLS + 1);
         let greatest = |places: &mut dyn Iterator<Item = f32>| places.fold(0.0, f32::max);
         let of_scene = greatest(&mut reflection.iter().copied());
         let of_cell = |cell: usize| {
@@ -183,14 +169,14 @@ impl Outlook {
                 // At the ends, rounding may have led a photon of another face here.
                 return of_scene;
             }
-            let of_cell = &triangles[starts[cell] as usize..starts[cell + 1] as usize];
+            let of_cell = &triangles[cells[cell].start as usize..cells[cell].end as usize];
             greatest(&mut of_cell.iter().map(|triangle| reflection[*triangle as usize]))
         };
         let of_cells = Box::new(std::array::from_fn(|cell| {
             (of_cell(cell) * 128.0).ceil().clamp(0.0, 128.0) as u8
         }));
         let reflection = of_cells;
-        Self { seen, starts, triangles, reflection }
+        Self { seen, cells, triangles, reflection }
     }
 
     /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there when
@@ -204,8 +190,8 @@ impl Outlook {
     /// The triangles that a ray through `cell` may meet, in ascending order.
     #[inline(always)]
     pub fn candidates(&self, cell: u32) -> &[u32] {
-        let cell = cell as usize;
-        &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        let Range { start, end } = self.cells[cell as usize];
+        &self.triangles[start as usize..end as usize]
     }
 
     /// The axis along which rays through `cell` run.
@@ -220,22 +206,44 @@ impl Outlook {
     }
 }
 
-fn ends(step: usize) -> [f32; 2] {
-    let end = |step: usize| step as f32 * (2.0 / EDGE as f32) - 1.0;
-    [(end(step) - MARGIN).max(-1.0), (end(step + 1) + MARGIN).min(1.0)]
+/// One face of the cube.
+struct Face<'a> {
+    /// The corners of all triangles, in the order of a ray through this face.
+    corners: &'a [[Vec3; 3]],
+    is_negative: bool,
+    first_cell: usize,
 }
 
-/// Which of `triangles` a ray with shears in the intervals `x` and `y` may meet.
-fn may_be_met(
-    triangles: impl Iterator<Item = u32> + Clone,
-    corners: &[[Vec3; 3]],
-    is_negative: bool,
-    x: [f32; 2],
-    y: [f32; 2],
-) -> Vec<u32> {
-    triangles
-        .filter(|triangle| !is_refused(&corners[*triangle as usize], is_negative, x, y))
-        .collect()
+impl Face<'_> {
+    /// Gives `found` every cell of the square of `edge` cells from row and column `start` on, with
+    /// those of `triangles` that a ray through it may meet. What a quarter does not meet, none of its
+    /// cells does.
+    fn divide(
+        &self,
+        triangles: &[u32],
+        start: [usize; 2],
+        edge: usize,
+        found: &mut impl FnMut(usize, &[u32]),
+    ) {
+        let [y, x] = start.map(|start| ends(start, edge));
+        let is_refused = |t: &u32| is_refused(&self.corners[*t as usize], self.is_negative, x, y);
+        let triangles: Vec<u32> = triangles.iter().copied().filter(|t| !is_refused(t)).collect();
+        let [row, column] = start;
+        if edge == 1 {
+            found(self.first_cell + row * EDGE + column, &triangles);
+        } else if !triangles.is_empty() {
+            let half = edge / 2;
+            for quarter in [[0, 0], [0, half], [half, 0], [half, half]] {
+                self.divide(&triangles, [row + quarter[0], column + quarter[1]], half, found);
+            }
+        }
+    }
+}
+
+/// The ends of `count` steps from `step` on, and the margin.
+fn ends(step: usize, count: usize) -> [f32; 2] {
+    let end = |step: usize| step as f32 * (2.0 / EDGE as f32) - 1.0;
+    [(end(step) - MARGIN).max(-1.0), (end(step + count) + MARGIN).min(1.0)]
 }
 
 fn is_refused(corners: &[Vec3; 3], is_negative: bool, x: [f32; 2], y: [f32; 2]) -> bool {
@@ -267,8 +275,11 @@ struct Interval(f32, f32);
 
 impl Interval {
     fn around<const N: usize>(values: [f32; N]) -> Self {
-        let [low, high] = [f32::min, f32::max]
-            .map(|choose| values.into_iter().reduce(choose).expect("there is a value"));
+        let (mut low, mut high) = (values[0], values[0]);
+        for value in values {
+            low = if value < low { value } else { low };
+            high = if value > high { value } else { high };
+        }
         Self(low, high)
     }
 
