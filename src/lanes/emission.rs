@@ -5,6 +5,7 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::chacha;
+use super::first_hit::Aimed;
 use super::outlook::{UNKNOWN, aim, rough_cell};
 
 /// How many photons a kernel call sends out. Their blocks fill half of a small first-level cache.
@@ -99,13 +100,13 @@ pub struct Aims {
     pub direction: [[f32; GROUP]; 3],
     /// The cells.
     pub cell: [u32; GROUP],
-    /// The shears, by coordinate.
-    pub shear: [[f32; GROUP]; 3],
+    /// The shears, and which photon it is.
+    pub aimed: [Aimed; GROUP],
 }
 
 impl Default for Aims {
     fn default() -> Self {
-        Self { direction: [[0.0; GROUP]; 3], cell: [0; GROUP], shear: [[0.0; GROUP]; 3] }
+        Self { direction: [[0.0; GROUP]; 3], cell: [0; GROUP], aimed: [[0.0; 4]; GROUP] }
     }
 }
 
@@ -113,6 +114,8 @@ impl Default for Aims {
 pub struct Aim<'a> {
     /// The points.
     pub point: &'a [[f32; GROUP]; 3],
+    /// The place of the first photon.
+    pub first: u32,
     /// Where the directions go.
     pub aims: &'a mut Aims,
 }
@@ -123,13 +126,14 @@ impl NullaryFnOnce for Aim<'_> {
     #[inline(always)]
     fn call(self) {
         let [x, y, z] = self.point;
-        let Aims { direction: [dx, dy, dz], cell, shear: [sx, sy, sz] } = self.aims;
+        let Aims { direction: [dx, dy, dz], cell, aimed } = self.aims;
         for lane in 0..GROUP {
             let direction = Vec3::new(x[lane], y[lane], z[lane]).normalize();
             let (cell_of_lane, shear) = aim(direction);
             (dx[lane], dy[lane], dz[lane]) = (direction.x, direction.y, direction.z);
             cell[lane] = cell_of_lane;
-            (sx[lane], sy[lane], sz[lane]) = (shear.x, shear.y, shear.z);
+            let place = f32::from_bits(self.first + lane as u32);
+            aimed[lane] = [shear.x, shear.y, shear.z, place];
         }
     }
 }

@@ -16,6 +16,10 @@ use crate::scene::triangle::meet;
 /// How many photons wait before they are tested.
 const LANES: usize = 16;
 
+/// The shears of a photon's direction, and the bits of its place among the photons of the search: all
+/// that waits of it, in one line of the cache.
+pub type Aimed = [f32; 4];
+
 /// A photon's closest hit so far.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstHit {
@@ -28,8 +32,7 @@ pub struct FirstHit {
 /// Photons that wait to be tested with the same triangle.
 #[derive(Clone, Debug)]
 struct Queue {
-    shear: [[f32; LANES]; 3],
-    photon: [u32; LANES],
+    photons: [Aimed; LANES],
     waiting: usize,
 }
 
@@ -48,7 +51,7 @@ pub struct FirstHits<'a> {
 impl<'a> FirstHits<'a> {
     /// A search for `photons` photons that see `outlook`, in a scene of `triangles` triangles.
     pub fn new(outlook: &'a Outlook, width: Width, triangles: usize, photons: usize) -> Self {
-        let empty = Queue { shear: [[1.0; LANES]; 3], photon: [0; LANES], waiting: 0 };
+        let empty = Queue { photons: [[1.0; 4]; LANES], waiting: 0 };
         Self {
             outlook,
             width,
@@ -58,17 +61,14 @@ impl<'a> FirstHits<'a> {
         }
     }
 
-    /// Looks for what `photon` meets in the direction that [`super::outlook::aim`] gave.
+    /// Looks for what `photon` meets, whose direction is in `cell`.
     #[inline(always)]
-    pub fn add(&mut self, photon: u32, cell: u32, shear: Vec3) {
+    pub fn add(&mut self, cell: u32, photon: Aimed) {
         let axis = Outlook::axis(cell);
         for &triangle in self.outlook.candidates(cell) {
             let queue = &mut self.queues[axis * self.triangles + triangle as usize];
             let lane = queue.waiting % LANES;
-            for (column, shear) in queue.shear.iter_mut().zip(shear.to_array()) {
-                column[lane] = shear;
-            }
-            queue.photon[lane] = photon;
+            queue.photons[lane] = photon;
             queue.waiting = lane + 1;
             if queue.waiting == LANES {
                 self.test(axis, triangle);
@@ -94,18 +94,18 @@ impl<'a> FirstHits<'a> {
         let (mut t, mut is_doubtful) = ([0.0; LANES], [0; LANES]);
         self.width.run(Meet {
             corners,
-            shear: &queue.shear,
+            photons: &queue.photons,
             t: &mut t,
             is_doubtful: &mut is_doubtful,
         });
         for lane in 0..queue.waiting {
             if is_doubtful[lane] != 0 {
-                let shear = Vec3::from_array([0, 1, 2].map(|c| queue.shear[c][lane]));
+                let shear = Vec3::from_slice(&queue.photons[lane]);
                 let sheared =
                     |c: Vec3| Vec3::new(c.x - shear.x * c.z, c.y - shear.y * c.z, shear.z * c.z);
                 t[lane] = meet(corners.map(sheared)).unwrap_or(f32::INFINITY);
             }
-            let hit = &mut self.hits[queue.photon[lane] as usize];
+            let hit = &mut self.hits[queue.photons[lane][3].to_bits() as usize];
             let is_tie = (t[lane] == hit.t) & (triangle < hit.triangle);
             let is_closer = mask((t[lane] < hit.t) | (is_tie & (hit.triangle != NONE)));
             let kept = hit.t.to_bits() & !is_closer;
@@ -118,7 +118,7 @@ impl<'a> FirstHits<'a> {
 
 struct Meet<'a> {
     corners: &'a [Vec3; 3],
-    shear: &'a [[f32; LANES]; 3],
+    photons: &'a [Aimed; LANES],
     /// Where the distances go; infinite where the triangle is not met.
     t: &'a mut [f32; LANES],
     /// Not 0 where an edge function that decides was rounded to zero: there `meet` looks again.
@@ -130,9 +130,9 @@ impl NullaryFnOnce for Meet<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { corners: [a, b, c], shear: [shear_x, shear_y, shear_z], t, is_doubtful } = self;
+        let Self { corners: [a, b, c], photons, t, is_doubtful } = self;
         for lane in 0..LANES {
-            let (sx, sy, sz) = (shear_x[lane], shear_y[lane], shear_z[lane]);
+            let [sx, sy, sz, _] = photons[lane];
             let (ax, ay, az) = (a.x - sx * a.z, a.y - sy * a.z, sz * a.z);
             let (bx, by, bz) = (b.x - sx * b.z, b.y - sy * b.z, sz * b.z);
             let (cx, cy, cz) = (c.x - sx * c.z, c.y - sy * c.z, sz * c.z);

@@ -35,11 +35,17 @@ struct Arrival {
 }
 
 /// The photons that are on a surface after the same number of bounces, in order.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Arrivals {
     places: Vec<Arrival>,
     /// The numbers with which each goes on.
     draws: Vec<Draws>,
+}
+
+impl Arrivals {
+    fn with_capacity(count: usize) -> Self {
+        Self { places: Vec::with_capacity(count), draws: Vec::with_capacity(count) }
+    }
 }
 
 impl LaneTracer<'_> {
@@ -96,21 +102,15 @@ impl LaneTracer<'_> {
                     column[lane] = coordinate;
                 }
             }
-            self.width.run(Aim { point: &point, aims: &mut aims });
+            let first = (group * emission::GROUP) as u32;
+            self.width.run(Aim { point: &point, first, aims: &mut aims });
             for (lane, departure) in departures.iter_mut().enumerate() {
-                let of_lane = |columns: &[[f32; emission::GROUP]; 3]| {
-                    Vec3::from_array([0, 1, 2].map(|c| columns[c][lane]))
-                };
-                departure.direction = of_lane(&aims.direction);
-                let place = group * emission::GROUP + lane;
-                first_hits.add(place as u32, aims.cell[lane], of_lane(&aims.shear));
+                departure.direction = Vec3::from_array([0, 1, 2].map(|c| aims.direction[c][lane]));
+                first_hits.add(aims.cell[lane], aims.aimed[lane]);
             }
         }
         first_hits.finish();
-        let mut arrivals = Arrivals {
-            places: Vec::with_capacity(departures.len()),
-            draws: Vec::with_capacity(departures.len()),
-        };
+        let mut arrivals = Arrivals::with_capacity(departures.len());
         for (Departure { direction, draws }, hit) in departures.into_iter().zip(&first_hits.hits) {
             if hit.triangle != NONE {
                 let point = Ray::new(light.position, direction).ray_position(hit.t);
@@ -210,7 +210,8 @@ impl LaneTracer<'_> {
         let mut frame = [[0.0; closest_hit::GROUP]; 9];
         let mut rays = Rays::default();
         let mut hits = Hits::default();
-        let mut next = Arrivals::default();
+        // Of the handout's photons, one in four.
+        let mut next = Arrivals::with_capacity(survivors.len() / 3);
         for group in survivors.chunks(closest_hit::GROUP) {
             for (lane, place) in group.iter().enumerate() {
                 let (arrival, draws) = (&arrivals.places[*place], &arrivals.draws[*place]);
@@ -256,6 +257,7 @@ fn join(by_bounce: &[Vec<PhotonRecord>], records: &mut Vec<PhotonRecord>) {
     let Some((first, later)) = by_bounce.split_first() else {
         return;
     };
+    records.reserve(by_bounce.iter().map(Vec::len).sum());
     let mut later: Vec<_> = later.iter().map(|records| records.iter().peekable()).collect();
     for record in first {
         records.push(*record);
