@@ -193,9 +193,9 @@ mod tests {
 
     #[test]
     fn a_panic_is_passed_on() {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
         let work = |piece: u64| assert_ne!(piece, 20, "on purpose");
         let end = std::panic::catch_unwind(|| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
             pool.install(|| in_order(0..100, work, |()| Ok::<(), ()>(())))
         });
         assert!(end.is_err());
