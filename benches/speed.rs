@@ -6,6 +6,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use glam::Vec3;
 use photon_mapping::assignment8;
+use photon_mapping::lanes::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
 use photon_mapping::lanes::width::Width;
 use photon_mapping::lanes::{LaneTracer, picture};
 use photon_mapping::photon_list::record::PhotonRecord;
@@ -18,9 +19,13 @@ use photon_mapping::rendering::photon_map::PhotonMap;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
 };
+use photon_mapping::scene::Scene;
 use photon_mapping::scene::intersection_state::IntersectionState;
+use photon_mapping::scene::material::Material;
+use photon_mapping::scene::mesh_object::MeshObject;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::tree::Tree;
+use photon_mapping::scene::triangle::Triangle;
 
 fn main() {
     divan::main();
@@ -78,13 +83,76 @@ fn closest_of_all_triangles(bencher: Bencher) {
     bencher.bench(|| scene.trace(black_box(&ray), Some(&mut IntersectionState::new())));
 }
 
-/// The same rays with and without a tree: below how many triangles it does not pay.
-#[divan::bench]
-fn closest_in_a_tree_of_as_many(bencher: Bencher) {
-    let scene = assignment8::create_scene();
-    let tree = Tree::new(scene.triangles());
-    let ray = Ray::new(scene.lights()[0].position, Vec3::new(0.6, 0.0, -0.8));
-    bencher.bench(|| tree.closest(black_box(&ray)));
+/// `triangles` triangles of boxes that stand about in a room.
+fn boxes(triangles: usize) -> Scene {
+    let mut random = photon_random(7, triangles as u64);
+    let mut all = Vec::new();
+    while all.len() < triangles {
+        let center = Vec3::new(2.0 * random() - 1.0, 2.0 * random() - 1.0, 1.5 * random());
+        let half = Vec3::new(0.05 + 0.2 * random(), 0.05 + 0.2 * random(), 0.1 + 0.3 * random());
+        let corner = |number: usize| {
+            let side = |axis: usize| if number >> axis & 1 == 1 { 1.0 } else { -1.0 };
+            center + half * Vec3::new(side(0), side(1), side(2))
+        };
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        for [a, b, c, d] in faces {
+            for corners in [[a, b, c], [a, c, d]] {
+                let vertices = corners.map(corner);
+                let [a, b, c] = vertices;
+                let normal = (b - a).cross(c - a).normalize();
+                all.push(Triangle { vertices, normal, parent_mesh_object: 0, facet: 0 });
+            }
+        }
+    }
+    all.truncate(triangles);
+    let material = Material::new(Vec3::splat(0.5));
+    Scene::new(vec![MeshObject { name: String::new(), material }], all, Vec::new())
+}
+
+/// Rays that leave the triangles of `scene`, more of them upright than aslant.
+fn scattered_rays(scene: &Scene) -> Vec<Ray> {
+    let mut random = photon_random(9, 0);
+    let triangles = scene.triangles();
+    (0..RAYS)
+        .map(|ray| {
+            let Triangle { vertices: [a, b, c], normal, .. } = triangles[ray % triangles.len()];
+            let (u, v) = (random().sqrt(), random());
+            let start = a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v);
+            let aslant = Vec3::new(random() - 0.5, random() - 0.5, random() - 0.5).normalize();
+            Ray::new(start + 1e-5 * normal, (aslant + 1.001 * normal).normalize())
+        })
+        .collect()
+}
+
+const RAYS: usize = 8192;
+
+/// Up to how many triangles lanes are as fast as a tree: `lanes::MOST_TRIANGLES`.
+#[divan::bench(args = [24, 48, 64, 96, 128, 192, 256], sample_count = 20)]
+fn closest_in_lanes_by_triangles(bencher: Bencher, triangles: usize) {
+    let scene = boxes(triangles);
+    let (corners, all) = (SharedCorners::new(&scene), scattered_rays(&scene));
+    let (mut rays, mut hits) = (Rays::default(), Hits::default());
+    bencher.counter(ItemsCount::new(RAYS)).bench_local(|| {
+        let mut found = 0;
+        for group in all.chunks(GROUP) {
+            group.iter().enumerate().for_each(|(lane, ray)| rays.set(lane, ray));
+            let closest = Closest { scene: &corners, rays: &rays, hits: &mut hits };
+            Width::widest().run(closest);
+            hits.settle(&scene, &rays, group.len());
+            found += hits.triangle.iter().filter(|triangle| **triangle != NONE).count();
+        }
+        found
+    });
+}
+
+#[divan::bench(args = [24, 48, 64, 96, 128, 192, 256], sample_count = 20)]
+fn closest_in_a_tree_by_triangles(bencher: Bencher, triangles: usize) {
+    let scene = boxes(triangles);
+    let (tree, all) = (Tree::new(scene.triangles()), scattered_rays(&scene));
+    bencher
+        .counter(ItemsCount::new(RAYS))
+        .bench(|| all.iter().filter(|ray| tree.closest(ray).is_some()).count());
 }
 
 #[divan::bench(sample_count = 20)]

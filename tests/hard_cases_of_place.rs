@@ -122,7 +122,7 @@ fn small_detail_on_a_wide_plain() {
             .map(|light| PointLight { position: light.position * unit, ..*light });
         let world =
             Scene::new(scene.mesh_objects().to_vec(), triangles.collect(), lights.collect());
-        let double = Tracer::new(&world);
+        let double = Tracer::new(&world, LARGE_EPSILON.into());
         let mut others = 0_u32;
         let mut exact = Path::default();
         let mut map = Vec::new();

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::lanes::width::Width;
-use photon_mapping::lanes::{LaneTracer, picture};
+use photon_mapping::lanes::{LaneTracer, MOST_TRIANGLES, picture};
 use photon_mapping::photon_list::record::PhotonRecord;
 use photon_mapping::photon_list::trace::trace_piece;
 use photon_mapping::photon_list::writer::ListHash;
@@ -68,7 +68,10 @@ fn renderer() -> impl Strategy<Value = PhotonMappingRenderer> {
         1 => Just(Reading { offset: Offset::AlongDirection(1e-3), ..Reading::REFERENCE }),
     ];
     (
-        prop::collection::vec(triangle(), 0..30),
+        prop_oneof![
+            9 => prop::collection::vec(triangle(), 0..30),
+            1 => prop::collection::vec(triangle(), 60..=MOST_TRIANGLES),
+        ],
         prop::collection::vec(light, 1..4),
         1..4000_u64,
         -1..12,

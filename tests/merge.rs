@@ -94,6 +94,25 @@ fn counts_add_up_to_those_of_the_whole_run() {
     fails_with(&["merge", "a", "a"], folder.path(), "overlap in the photons 0..7777");
 }
 
+#[test]
+fn csv_pieces_are_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (range, format) in [("0..9000", "ply"), ("9000..20000", "csv")] {
+        let arguments = ["--range", range, "--format", format, "--out", format];
+        json_of(&render(&arguments), folder.path());
+    }
+    let merge = ["merge", "ply/photons.ply", "csv/photons.csv", "--out", "all.ply"];
+    let advice = "photons.csv: expected a PLY list of render: no other file names its run; trace it \
+                  with --format ply";
+    fails_with(&merge, folder.path(), advice);
+    fails_with(&["merge", "csv/photons.csv"], folder.path(), "trace it with --format ply");
+    let counts = json_of(&render_counts(&[]), folder.path());
+    std::fs::write(folder.path().join("counts"), counts.to_string()).expect("a file");
+    let merge = ["merge", "counts", "--out", "all.ply"];
+    fails_with(&merge, folder.path(), "counts are merged without --out");
+    assert!(!folder.path().join("all.ply").exists());
+}
+
 fn render_counts<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [&["render", "--photons", "20000", "--quiet", "--json", "--count-only"], more].concat()
 }

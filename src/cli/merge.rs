@@ -53,9 +53,7 @@ pub fn run(arguments: &MergeArgs) -> Result<u8, CliError> {
         None if !lists.contains(&true) => merge_counts(arguments)?,
         Some(_) => {
             let other = lists.iter().position(|is_list| !is_list).unwrap_or_default();
-            let path = arguments.pieces[other].display();
-            let message = format!("{path}: --out expects PLY lists, whose header names their run");
-            return Err(CliError::Argument(message));
+            return Err(no_list(&arguments.pieces[other])?);
         }
         None => {
             let message = "expected --out FILE to merge lists into, or summaries alone";
@@ -63,6 +61,17 @@ pub fn run(arguments: &MergeArgs) -> Result<u8, CliError> {
         }
     };
     print_summary(&summary, arguments.json)
+}
+
+/// What to do about the piece `path`, which is no PLY list where one is needed.
+fn no_list(path: &Path) -> Result<CliError, CliError> {
+    let advice = match starts_with(path, b"{")? {
+        true => "counts are merged without --out",
+        false => {
+            "no other file names its run; trace it with --format ply (--out FILE.csv merges into CSV)"
+        }
+    };
+    Ok(malformed(path, format!("expected a PLY list of render: {advice}")))
 }
 
 fn starts_with(path: &Path, start: &[u8]) -> Result<bool, CliError> {
@@ -149,7 +158,8 @@ fn merge_counts(arguments: &MergeArgs) -> Result<Summary, CliError> {
     let read = |path: &PathBuf| -> Result<CountOnly, CliError> {
         let text = fs::read_to_string(path)
             .map_err(|source| ListError::Unreadable { path: path.clone(), source })?;
-        let expected = "expected a PLY list or the JSON of --count-only --json";
+        let expected = "expected a PLY list or the JSON of --count-only --json; a list in CSV does not \
+                        name its run: trace it with --format ply";
         serde_json::from_str(&text).map_err(|_| malformed(path, expected))
     };
     let pieces: Vec<CountOnly> = arguments.pieces.iter().map(read).collect::<Result<_, _>>()?;

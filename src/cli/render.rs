@@ -22,7 +22,7 @@ use crate::photon_list::record::PhotonRecord;
 use crate::photon_list::run::Run;
 use crate::photon_list::trace::trace_list;
 use crate::photon_list::writer::{Format, ListHash, ListWriter};
-use crate::rendering::photon_map::PhotonMap;
+use crate::rendering::dots::Dots;
 use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::sampler::Sampler;
 use crate::scene::Scene;
@@ -113,21 +113,24 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
         None => photons(arguments, &renderer)?,
     };
     let mut picture_file = OutputFile::create(&arguments.out.join("assignment8.png"))?;
+    let (width, height) = arguments.size;
+    let frame = renderer.stored_scene.frame();
+    let camera = assignment8::create_camera(width, height).in_frame(frame);
+    let mut dots = Dots::new(camera, width, height);
     let (mut summary, list_file) = match &arguments.photons_from {
-        Some(path) => (read_list(arguments, path, &mut renderer)?, None),
+        Some(path) => (read_list(arguments, path, &renderer, &mut dots)?, None),
         None => {
-            let (summary, file) = trace(arguments, &mut renderer, photons)?;
+            let (summary, file) = trace(arguments, &renderer, photons, &mut dots)?;
             (summary, Some(file))
         }
     };
 
     let start = Instant::now();
-    let (width, height) = arguments.size;
-    let frame = renderer.stored_scene.frame();
-    let camera = assignment8::create_camera(width, height).in_frame(frame);
+    renderer.diffuse_map = dots.remaining();
     let progress = progress::bar(arguments.quiet, "picture", u64::from(height));
     let (lanes, row_done) = (Width::widest(), || progress.inc(1));
-    let picture = take_picture(&renderer, lanes, &camera, width, height, row_done);
+    let mut picture = take_picture(&renderer, lanes, &camera, width, height, row_done);
+    dots.draw(&mut picture);
     progress.finish_and_clear();
     summary.seconds.picture = start.elapsed().as_secs_f64();
 
@@ -187,11 +190,12 @@ fn count(arguments: &RenderArgs, renderer: &PhotonMappingRenderer) -> Result<Sum
     Ok(Summary { counts, run, ..traced })
 }
 
-/// Traces the list into a file that is not yet in its place, and fills the photon map.
+/// Traces the list into a file that is not yet in its place, and adds its photons to `dots`.
 fn trace(
     arguments: &RenderArgs,
-    renderer: &mut PhotonMappingRenderer,
+    renderer: &PhotonMappingRenderer,
     photons: Range<u64>,
+    dots: &mut Dots,
 ) -> Result<(Summary, OutputFile), CliError> {
     let start = Instant::now();
     let (name, format) = match arguments.format {
@@ -203,23 +207,22 @@ fn trace(
     let unwritable = |error| CliError::unwritable(&path, error);
     let mut hash = ListHash::default();
     let mut tally = tally(&renderer.stored_scene);
-    let mut positions = Vec::new();
-    let frame = *renderer.stored_scene.frame();
+    let scene = &renderer.stored_scene;
     let progress = progress::bar(arguments.quiet, "photons", photons.end - photons.start);
     let mut writer =
         ListWriter::new(file.file(), format, comments(renderer, &photons)).map_err(unwritable)?;
     trace_list(renderer, photons.clone(), |records: &[PhotonRecord], done| {
         hash.update_all(records);
         records.iter().for_each(|record| tally.add(record));
-        let placed = |record: &PhotonRecord| frame.to_scene(record.position.as_dvec3());
-        positions.extend(records.iter().map(placed));
+        for record in records {
+            dots.add(scene, scene.frame().to_scene(record.position.as_dvec3()));
+        }
         progress.set_position(done);
         writer.write(records)
     })
     .and_then(|()| writer.finish())
     .map_err(unwritable)?;
     progress.finish_and_clear();
-    renderer.diffuse_map = PhotonMap::new(positions);
     Ok((traced(arguments, renderer, &photons, &tally, &hash, start), file))
 }
 
@@ -248,21 +251,23 @@ fn traced(
     }
 }
 
-/// Fills the photon map from the list `path`.
+/// Adds the photons of the list `path` to `dots`.
 fn read_list(
     arguments: &RenderArgs,
     path: &Path,
-    renderer: &mut PhotonMappingRenderer,
+    renderer: &PhotonMappingRenderer,
+    dots: &mut Dots,
 ) -> Result<Summary, CliError> {
     let start = Instant::now();
-    let surfaces = renderer.stored_scene.mesh_objects().len();
-    let frame = *renderer.stored_scene.frame();
+    let scene = &renderer.stored_scene;
+    let surfaces = scene.mesh_objects().len();
     let mut hash = ListHash::default();
     let mut tally = tally(&renderer.stored_scene);
-    let mut positions = Vec::new();
+    let mut stored = 0;
     let progress = progress::bar(arguments.quiet, "list", 0);
     let columns = reader::read(path, |record| {
-        positions.push(frame.to_scene(record.position.as_dvec3()));
+        stored += 1;
+        dots.add(scene, scene.frame().to_scene(record.position.as_dvec3()));
         hash.update(&record);
         if usize::from(record.surface) < surfaces && (1..=1000).contains(&record.bounce) {
             tally.add(&record);
@@ -270,8 +275,6 @@ fn read_list(
         progress.inc(1);
     })?;
     progress.finish_and_clear();
-    let stored = positions.len() as u64;
-    renderer.diffuse_map = PhotonMap::new(positions);
     let (surfaces, total) = match columns.surface && columns.bounce {
         true => {
             let (surfaces, total) = tally.surfaces(stored, 1000, None);

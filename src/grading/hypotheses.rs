@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 use super::variation::{FACETS, Hemisphere, Roulette, Variation};
-use crate::compare::verdict::Section;
+use crate::compare::section::Section;
 use crate::rendering::reading::{Offset, Reading, TangentBasis};
 
 /// A way in which the assignment may have been done.

@@ -9,7 +9,7 @@ use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
 use super::statistics::{Law, corrected, fit, grouped, normal_tails, towards};
 use super::verdict::{Finding, Weight};
-use crate::compare::verdict::Section;
+use crate::compare::section::Section;
 
 /// A submission that is as strange as this by chance alone is called incorrect. Of ten thousand
 /// submissions that are correct, one may be; a tenth of that leaves room for what the tests assume.

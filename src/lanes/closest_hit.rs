@@ -61,7 +61,7 @@ pub struct Hits {
     pub t: Lanes,
     /// The triangles, or [`NONE`].
     pub triangle: [u32; GROUP],
-    /// Not 0 where an edge function was rounded to zero somewhere: see [`Self::settle`].
+    /// Not 0 where an edge function that decides was rounded to zero: see [`Self::settle`].
     is_doubtful: [u32; GROUP],
     seen: Vec<[Lanes; 3]>,
 }
@@ -138,18 +138,17 @@ impl NullaryFnOnce for Closest<'_> {
                 let u = cx * by - cy * bx;
                 let v = ax * cy - ay * cx;
                 let w = bx * ay - by * ax;
-                let is_negative = mask(u < 0.0) | mask(v < 0.0) | mask(w < 0.0);
-                let is_positive = mask(u > 0.0) | mask(v > 0.0) | mask(w > 0.0);
-                let determinant = u + v + w;
-                let t = (u * a[2][lane] + v * b[2][lane] + w * c[2][lane]) / determinant;
-                let is_closer = !(is_negative & is_positive)
-                    & mask(determinant != 0.0)
+                let (least, greatest) = (least(u, v, w), greatest(u, v, w));
+                // A determinant of zero gives a t that is infinite or not a number.
+                let t = (u * a[2][lane] + v * b[2][lane] + w * c[2][lane]) / (u + v + w);
+                let is_closer = !(mask(least < 0.0) & mask(greatest > 0.0))
                     & mask(t > 0.0)
                     & mask(t < closest_t[lane]);
                 let kept = closest_t[lane].to_bits() & !is_closer;
                 closest_t[lane] = f32::from_bits((t.to_bits() & is_closer) | kept);
                 closest[lane] = (index as u32 & is_closer) | (closest[lane] & !is_closer);
-                doubt[lane] |= mask(u == 0.0) | mask(v == 0.0) | mask(w == 0.0);
+                // Beside a true negative and a true positive one, a zero changes nothing.
+                doubt[lane] |= mask(least == 0.0) | mask(greatest == 0.0);
             }
         }
         (hits.t, hits.triangle, hits.is_doubtful) = (closest_t, closest, doubt);
@@ -160,6 +159,20 @@ impl NullaryFnOnce for Closest<'_> {
 #[inline(always)]
 pub(super) fn mask(condition: bool) -> u32 {
     u32::from(condition).wrapping_neg()
+}
+
+/// The least of three, in the form for which every processor has an instruction.
+#[inline(always)]
+pub(super) fn least(u: f32, v: f32, w: f32) -> f32 {
+    let least = if u < v { u } else { v };
+    if least < w { least } else { w }
+}
+
+/// The greatest of three.
+#[inline(always)]
+pub(super) fn greatest(u: f32, v: f32, w: f32) -> f32 {
+    let greatest = if u > v { u } else { v };
+    if greatest > w { greatest } else { w }
 }
 
 /// The coordinates in the order of a ray that runs along `axis`: those of `ShearedRay::axes`.
@@ -208,8 +221,7 @@ impl Rays {
 }
 
 impl Hits {
-    /// Asks [`Scene::trace`] for those of the first `count` rays that were rounded to zero
-    /// somewhere: its second look in f64 is rarely needed and not made in lanes.
+    /// Asks [`Scene::trace`] for those of the first `count` rays that are in doubt: its second look in f64 is rarely needed and not made in lanes.
     pub fn settle(&mut self, scene: &Scene, rays: &Rays, count: usize) {
         for lane in 0..count {
             if self.is_doubtful[lane] != 0 {

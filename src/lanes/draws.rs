@@ -39,7 +39,12 @@ impl NullaryFnOnce for Blocks<'_> {
 
     #[inline(always)]
     fn call(self) {
-        chacha::blocks(self.seed, self.photons, |lane| self.blocks[lane], self.words);
+        for lane in 0..GROUP {
+            let w = chacha::block(self.seed, self.photons[lane], self.blocks[lane]);
+            for (row, word) in self.words.iter_mut().zip(w) {
+                row[lane] = word;
+            }
+        }
     }
 }
 

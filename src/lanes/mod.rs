@@ -2,8 +2,8 @@
 //! [`PhotonMappingRenderer::trace_photon`]. Nobody needs to read this to understand photon mapping.
 //!
 //! A wave of photons takes each step together: [`emission`] draws their directions in the lanes of
-//! the processor's vectors, [`outlook`] tells what a photon from a light meets, [`closest_hit`] what
-//! a scattered one meets, [`scattering`] sends those that survive the roulette on, and [`wave`] is
+//! the processor's vectors, [`outlook`] tells what a photon from a light may meet and [`first_hit`]
+//! what it meets, [`closest_hit`] what a scattered one meets, [`scattering`] sends those that survive the roulette on, and [`wave`] is
 //! the loop around them. [`picture`] sends camera and shadow rays the same way. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and this
@@ -21,6 +21,7 @@ pub mod chacha;
 pub mod closest_hit;
 pub mod draws;
 pub mod emission;
+pub mod first_hit;
 pub mod outlook;
 pub mod picture;
 pub mod scattering;
@@ -35,13 +36,19 @@ use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::rendering::reading::TangentBasis;
 use crate::rendering::sampler::Sampler;
 use crate::rendering::sampling::tangent_frame;
+use crate::scene::lights::point_light::PointLight;
 use crate::scene::triangle::Triangle;
 use closest_hit::SharedCorners;
 use outlook::Outlook;
 use width::Width;
 
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
-pub const MOST_TRIANGLES: usize = 64;
+///
+/// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, all triangles in
+/// lanes beside the tree (AVX2, Zen 3; `benches/speed.rs`): 22 and 62 for 24 triangles, 38 and 87 for
+/// 48, 81 and 99 for 96, 98 and 104 for 128, 172 and 155 for 192. Lanes also draw many photons' numbers
+/// at once, which is why they keep the tie.
+pub const MOST_TRIANGLES: usize = 128;
 
 /// Traces the photons of one renderer in lanes.
 #[derive(Clone, Debug)]
@@ -88,12 +95,15 @@ impl<'renderer> LaneTracer<'renderer> {
             return None;
         }
         let surfaces = scene.triangles().iter().map(|triangle| Surface::new(renderer, triangle));
+        let surfaces: Vec<Surface> = surfaces.collect::<Option<_>>()?;
+        let reflection: Vec<f32> = surfaces.iter().map(|s| s.probability_of_reflection).collect();
+        let outlook = |light: &PointLight| Outlook::new(scene, light.position, &reflection);
         Some(Self {
             renderer,
             width,
             corners: SharedCorners::new(scene),
-            surfaces: surfaces.collect::<Option<_>>()?,
-            outlooks: scene.lights().iter().map(|l| Outlook::new(scene, l.position)).collect(),
+            surfaces,
+            outlooks: scene.lights().iter().map(outlook).collect(),
         })
     }
 

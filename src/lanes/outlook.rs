@@ -19,19 +19,28 @@
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
 //! photon's direction are 0 or at least 2^-24, so they cannot where each coordinate is 0 or at least
 //! 2^-25; a triangle with smaller ones is in every cell.
+//!
+//! A photon straight from the light is not stored, so one that is absorbed where it hits first need
+//! not be followed there: [`Outlook::may_go_on`] plays its roulette against the most that anything in
+//! its cell reflects. [`super::first_hit`] tests those that remain.
+
+use std::ops::Range;
 
 use glam::Vec3;
 
-use super::closest_hit::{NONE, mask};
 use crate::scene::Scene;
-use crate::scene::triangle::{ShearedRay, meet};
+use crate::scene::triangle::ShearedRay;
 
 /// Cells along the edge of a face of the cube; a power of two, so that the cells' ends are exact.
 const EDGE: usize = 32;
 /// How many cells there are.
 const CELLS: usize = 6 * EDGE * EDGE;
+/// The cell of a photon whose direction is not known yet.
+pub const UNKNOWN: u32 = CELLS as u32;
+/// [`CELLS`] and [`UNKNOWN`], with room up to the next power of two.
+const ROUGH_CELLS: usize = (CELLS + 1).next_power_of_two();
 /// How far a cell reaches over its ends, 2^-16: four times what [`step`] moves a shear by shrinking
-/// the grid and rounding.
+/// the grid and rounding, and [`rough_cell`] by five roundings more.
 const MARGIN: f32 = 1.0 / 65_536.0;
 /// Coordinates below this, 2^-25, may underflow in the edge functions.
 const SMALLEST: f32 = 1.0 / 33_554_432.0;
@@ -41,113 +50,82 @@ const LARGEST: f32 = 1e9;
 /// The triangles of a scene as one light sees them.
 #[derive(Clone, Debug)]
 pub struct Outlook {
-    /// The triangles seen from the light, once for each axis that a ray runs along.
-    seen: [Vec<Seen>; 3],
-    /// The triangles of cell c are `triangles[starts[c]..starts[c + 1]]`, in ascending order.
-    starts: Vec<u32>,
+    /// The corners seen from the light, once for each axis that a ray runs along.
+    seen: [Vec<[Vec3; 3]>; 3],
+    /// Of each cell, where in `triangles` its triangles are, in ascending order.
+    cells: Vec<Range<u32>>,
     triangles: Vec<u32>,
-    occupied: Vec<u8>,
+    /// The greatest probability of reflection that a photon through the cell may meet, in 128ths,
+    /// rounded up: a byte a cell leaves room in the first-level cache.
+    reflection: Box<[u8; ROUGH_CELLS]>,
 }
 
-/// The corners of a triangle, by coordinate. The fourth place fills a vector of four; it holds the
-/// first corner once more.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
-struct Seen([[f32; 4]; 3]);
-
-impl Seen {
-    fn new([a, b, c]: &[Vec3; 3]) -> Self {
-        Self([0, 1, 2].map(|axis| [a[axis], b[axis], c[axis], a[axis]]))
-    }
-
-    /// The test of [`meet`] without its branches, since which of two triangles a ray meets cannot be
-    /// predicted: whether, and at which distance.
-    #[inline(always)]
-    fn meet(&self, shear: Vec3) -> (bool, f32) {
-        let Self([x, y, z]) = self;
-        let (mut sx, mut sy, mut sz) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        for corner in 0..4 {
-            sx[corner] = x[corner] - shear.x * z[corner];
-            sy[corner] = y[corner] - shear.y * z[corner];
-            sz[corner] = shear.z * z[corner];
-        }
-        // u, v, w, and u once more.
-        let (px, py) = ([sx[2], sx[0], sx[1], sx[2]], [sy[2], sy[0], sy[1], sy[2]]);
-        let (qx, qy) = ([sx[1], sx[2], sx[0], sx[1]], [sy[1], sy[2], sy[0], sy[1]]);
-        let mut edges = [0.0; 4];
-        for edge in 0..4 {
-            edges[edge] = px[edge] * qy[edge] - py[edge] * qx[edge];
-        }
-        let (mut is_negative, mut is_positive, mut is_zero) = (false, false, false);
-        for edge in edges {
-            is_negative |= edge < 0.0;
-            is_positive |= edge > 0.0;
-            is_zero |= edge == 0.0;
-        }
-        if is_zero {
-            let second_look = meet([0, 1, 2].map(|c| Vec3::new(sx[c], sy[c], sz[c])));
-            return (second_look.is_some(), second_look.unwrap_or(0.0));
-        }
-        let [u, v, w, _] = edges;
-        let determinant = u + v + w;
-        let t = (u * sz[0] + v * sz[1] + w * sz[2]) / determinant;
-        (!(is_negative & is_positive) & (determinant != 0.0) & (t > 0.0), t)
-    }
-}
-
-/// A ray from the light, ready for the triangle test.
-#[derive(Clone, Copy, Debug)]
-pub struct ShearedDirection {
-    /// The cell of the direction.
-    pub cell: u32,
-    /// The shears along x and y, and the reciprocal of the direction along z.
-    pub shear: Vec3,
-}
-
-impl ShearedDirection {
-    /// Prepares the unit vector `direction`, as [`ShearedRay::new`] does.
-    #[inline(always)]
-    pub fn new(direction: Vec3) -> Self {
-        let Vec3 { x, y, z } = direction;
-        let size = direction.abs();
-        // The choice of `ShearedRay::axes`, without its branches.
-        let along_x = size.x >= size.y && size.x >= size.z;
-        let along_y = size.y >= size.z;
-        let turned = Vec3::new(
-            if along_x {
-                y
-            } else if along_y {
-                z
-            } else {
-                x
-            },
-            if along_x {
-                z
-            } else if along_y {
-                x
-            } else {
-                y
-            },
-            if along_x {
-                x
-            } else if along_y {
-                y
-            } else {
-                z
-            },
-        );
-        let axis = if along_x {
-            0
+/// The face of the cube through which the direction `direction` of any length leaves, and the
+/// direction in the order of a ray's axes: the choice of `ShearedRay::axes`, without its branches.
+#[inline(always)]
+fn turn(direction: Vec3) -> (i32, Vec3) {
+    let Vec3 { x, y, z } = direction;
+    let size = direction.abs();
+    // Both comparisons always, where `&&` would branch.
+    let along_x = (size.x >= size.y) & (size.x >= size.z);
+    let along_y = size.y >= size.z;
+    let turned = Vec3::new(
+        if along_x {
+            y
         } else if along_y {
-            1
+            z
         } else {
-            2
-        };
-        let face = 2 * axis + i32::from(turned.z < 0.0);
-        let shear = Vec3::new(turned.x / turned.z, turned.y / turned.z, 1.0 / turned.z);
-        let cell = (face * EDGE as i32 + step(shear.y)) * EDGE as i32 + step(shear.x);
-        Self { cell: cell as u32, shear }
-    }
+            x
+        },
+        if along_x {
+            z
+        } else if along_y {
+            x
+        } else {
+            y
+        },
+        if along_x {
+            x
+        } else if along_y {
+            y
+        } else {
+            z
+        },
+    );
+    let axis = if along_x {
+        0
+    } else if along_y {
+        1
+    } else {
+        2
+    };
+    (2 * axis + i32::from(turned.z < 0.0), turned)
+}
+
+#[inline(always)]
+fn cell_of(face: i32, shear_x: f32, shear_y: f32) -> u32 {
+    ((face * EDGE as i32 + step(shear_y)) * EDGE as i32 + step(shear_x)) as u32
+}
+
+/// The cell of the unit vector `direction` and what [`ShearedRay::new`] makes of it: the shears
+/// along x and y, and the reciprocal of the direction along z.
+#[inline(always)]
+pub fn aim(direction: Vec3) -> (u32, Vec3) {
+    let (face, turned) = turn(direction);
+    let shear = Vec3::new(turned.x / turned.z, turned.y / turned.z, 1.0 / turned.z);
+    (cell_of(face, shear.x, shear.y), shear)
+}
+
+/// The cell of a point in the unit sphere for [`Outlook::may_go_on`], before it is normalised.
+///
+/// Its shears are off by a few roundings, for which a cell has its margin. Its face is that of the
+/// normalised direction: coordinates are drawn as multiples of 2^-23 and only grow by normalising, so
+/// two that differ still differ by more than the 2^-24 to which those of a unit vector are rounded.
+#[inline(always)]
+pub fn rough_cell(direction: Vec3) -> u32 {
+    let (face, turned) = turn(direction);
+    let reciprocal = 1.0 / turned.z;
+    cell_of(face, turned.x * reciprocal, turned.y * reciprocal)
 }
 
 /// The place along an edge of the grid of the shear `shear`, in [-1, 1].
@@ -163,8 +141,9 @@ fn step(shear: f32) -> i32 {
 }
 
 impl Outlook {
-    /// The triangles of `scene` as seen from `origin`.
-    pub fn new(scene: &Scene, origin: Vec3) -> Self {
+    /// The triangles of `scene` as seen from `origin`; `reflection` is each one's probability of
+    /// reflection.
+    pub fn new(scene: &Scene, origin: Vec3, reflection: &[f32]) -> Self {
         let turned = |[x, y, z]: [usize; 3]| -> Vec<[Vec3; 3]> {
             let turn = |corner: Vec3| {
                 let from_origin = corner - origin;
@@ -172,84 +151,100 @@ impl Outlook {
             };
             scene.triangles().iter().map(|triangle| triangle.vertices.map(turn)).collect()
         };
-        let corners = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| turned(ShearedRay::axes(axis)));
-        let mut starts = vec![0];
+        let seen = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| turned(ShearedRay::axes(axis)));
+        let mut cells = vec![0_u32..0; CELLS];
         let mut triangles = Vec::new();
         for face in 0..6 {
-            let is_negative = face % 2 == 1;
-            let corners = &corners[face / 2];
-            let of_face =
-                may_be_met(0..corners.len() as u32, corners, is_negative, [-1.0, 1.0], [-1.0, 1.0]);
-            for row in 0..EDGE {
-                let of_row = may_be_met(
-                    of_face.iter().copied(),
-                    corners,
-                    is_negative,
-                    [-1.0, 1.0],
-                    ends(row),
-                );
-                for column in 0..EDGE {
-                    triangles.extend(may_be_met(
-                        of_row.iter().copied(),
-                        corners,
-                        is_negative,
-                        ends(column),
-                        ends(row),
-                    ));
-                    starts.push(triangles.len() as u32);
-                }
+            let corners = &seen[face / 2];
+            let face = Face { corners, is_negative: face % 2 == 1, first_cell: face * EDGE * EDGE };
+            let all: Vec<u32> = (0..corners.len() as u32).collect();
+            face.divide(&all, [0, 0], EDGE, &mut |cell, of_cell| {
+                let start = triangles.len();
+                triangles.extend_from_slice(of_cell);
+                cells[cell] = start as u32..triangles.len() as u32;
+            });
+        }
+        let greatest = |places: &mut dyn Iterator<Item = f32>| places.fold(0.0, f32::max);
+        let of_scene = greatest(&mut reflection.iter().copied());
+        let of_cell = |cell: usize| {
+            if cell >= CELLS {
+                return of_scene;
+            }
+            let of_cell = &triangles[cells[cell].start as usize..cells[cell].end as usize];
+            greatest(&mut of_cell.iter().map(|triangle| reflection[*triangle as usize]))
+        };
+        let of_cells = Box::new(std::array::from_fn(|cell| {
+            (of_cell(cell) * 128.0).ceil().clamp(0.0, 128.0) as u8
+        }));
+        let reflection = of_cells;
+        Self { seen, cells, triangles, reflection }
+    }
+
+    /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there when
+    /// its roulette's number is that of `word`.
+    #[inline(always)]
+    pub fn may_go_on(&self, cell: u32, word: u32) -> bool {
+        // The number is at least this many 128ths.
+        word >> 25 < u32::from(self.reflection[cell as usize % ROUGH_CELLS])
+    }
+
+    /// The triangles that a ray through `cell` may meet, in ascending order.
+    #[inline(always)]
+    pub fn candidates(&self, cell: u32) -> &[u32] {
+        let Range { start, end } = self.cells[cell as usize];
+        &self.triangles[start as usize..end as usize]
+    }
+
+    /// The axis along which rays through `cell` run.
+    #[inline(always)]
+    pub fn axis(cell: u32) -> usize {
+        cell as usize / (2 * EDGE * EDGE)
+    }
+
+    /// The corners of `triangle` as rays along `axis` see them from the light, not yet sheared.
+    pub fn seen(&self, axis: usize, triangle: u32) -> &[Vec3; 3] {
+        &self.seen[axis][triangle as usize]
+    }
+}
+
+/// One face of the cube.
+struct Face<'a> {
+    /// The corners of all triangles, in the order of a ray through this face.
+    corners: &'a [[Vec3; 3]],
+    is_negative: bool,
+    first_cell: usize,
+}
+
+impl Face<'_> {
+    /// Gives `found` every cell of the square of `edge` cells from row and column `start` on, with
+    /// those of `triangles` that a ray through it may meet. What a quarter does not meet, none of its
+    /// cells does.
+    fn divide(
+        &self,
+        triangles: &[u32],
+        start: [usize; 2],
+        edge: usize,
+        found: &mut impl FnMut(usize, &[u32]),
+    ) {
+        let [y, x] = start.map(|start| ends(start, edge));
+        let is_refused = |t: &u32| is_refused(&self.corners[*t as usize], self.is_negative, x, y);
+        let triangles: Vec<u32> = triangles.iter().copied().filter(|t| !is_refused(t)).collect();
+        let [row, column] = start;
+        if edge == 1 {
+            found(self.first_cell + row * EDGE + column, &triangles);
+        } else if !triangles.is_empty() {
+            let half = edge / 2;
+            for quarter in [[0, 0], [0, half], [half, 0], [half, half]] {
+                self.divide(&triangles, [row + quarter[0], column + quarter[1]], half, found);
             }
         }
-        let occupied = starts.windows(2).map(|ends| u8::from(ends[0] < ends[1])).collect();
-        debug_assert_eq!(starts.len(), CELLS + 1);
-        let seen = corners.map(|corners| corners.iter().map(Seen::new).collect());
-        Self { seen, starts, triangles, occupied }
-    }
-
-    /// 1 if a ray through `cell` may meet anything, else 0.
-    #[inline(always)]
-    pub fn occupied(&self, cell: u32) -> u8 {
-        self.occupied[cell as usize]
-    }
-
-    /// The closest triangle that a ray in `direction` meets and its distance: what
-    /// [`Scene::trace`] would say.
-    #[inline(always)]
-    pub fn closest(&self, direction: ShearedDirection) -> Option<(u32, f32)> {
-        let ShearedDirection { cell, shear } = direction;
-        let cell = cell as usize;
-        let seen = &self.seen[cell / (2 * EDGE * EDGE)];
-        let mut closest_t = f32::INFINITY;
-        let mut closest = NONE;
-        let candidates =
-            &self.triangles[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        for &triangle in candidates {
-            let (is_met, t) = seen[triangle as usize].meet(shear);
-            let is_closer = mask(is_met & (t < closest_t));
-            closest_t =
-                f32::from_bits((t.to_bits() & is_closer) | (closest_t.to_bits() & !is_closer));
-            closest = (triangle & is_closer) | (closest & !is_closer);
-        }
-        (closest != NONE).then_some((closest, closest_t))
     }
 }
 
-fn ends(step: usize) -> [f32; 2] {
+/// The ends of `count` steps from `step` on, and the margin.
+fn ends(step: usize, count: usize) -> [f32; 2] {
     let end = |step: usize| step as f32 * (2.0 / EDGE as f32) - 1.0;
-    [(end(step) - MARGIN).max(-1.0), (end(step + 1) + MARGIN).min(1.0)]
-}
-
-/// Which of `triangles` a ray with shears in the intervals `x` and `y` may meet.
-fn may_be_met(
-    triangles: impl Iterator<Item = u32> + Clone,
-    corners: &[[Vec3; 3]],
-    is_negative: bool,
-    x: [f32; 2],
-    y: [f32; 2],
-) -> Vec<u32> {
-    triangles
-        .filter(|triangle| !is_refused(&corners[*triangle as usize], is_negative, x, y))
-        .collect()
+    [(end(step) - MARGIN).max(-1.0), (end(step + count) + MARGIN).min(1.0)]
 }
 
 fn is_refused(corners: &[Vec3; 3], is_negative: bool, x: [f32; 2], y: [f32; 2]) -> bool {
@@ -281,8 +276,11 @@ struct Interval(f32, f32);
 
 impl Interval {
     fn around<const N: usize>(values: [f32; N]) -> Self {
-        let [low, high] = [f32::min, f32::max]
-            .map(|choose| values.into_iter().reduce(choose).expect("there is a value"));
+        let (mut low, mut high) = (values[0], values[0]);
+        for value in values {
+            low = if value < low { value } else { low };
+            high = if value > high { value } else { high };
+        }
         Self(low, high)
     }
 
@@ -292,5 +290,52 @@ impl Interval {
 
     fn minus(self, other: Self) -> Self {
         Self(self.0 - other.1, self.1 - other.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assignment8;
+    use crate::lanes::emission::{coordinate, is_in_sphere};
+    use crate::random::photon_random;
+
+    #[test]
+    fn nobody_is_sorted_out_who_may_meet_something() {
+        let scene = assignment8::create_scene();
+        let reflection = vec![0.3; scene.triangles().len()];
+        let outlook = Outlook::new(&scene, scene.lights()[0].position, &reflection);
+        let mut random = photon_random(5, 0);
+        let mut kept = 0;
+        for number in 0..400_000 {
+            let mut words = [0, 1, 2].map(|_| ((random() * 16_777_216.0) as u32) << 8);
+            match number % 4 {
+                // Along the edges of the cube of directions, to the last place, on both sides.
+                0 => words[1] = words[0].wrapping_add(0x100),
+                1 => words[2] = !words[0] & !0xff,
+                // Along the border of a cell.
+                2 => {
+                    let [x, _, z] = words.map(coordinate);
+                    let border = z * (x * 16.0).round() / 16.0;
+                    words[0] = (((border + 1.0) * 8_388_608.0) as u32) << 8;
+                }
+                _ => {}
+            }
+            let point = Vec3::from_array(words.map(coordinate));
+            if !is_in_sphere(point) {
+                continue;
+            }
+            let (cell, _) = aim(point.normalize());
+            let rough = rough_cell(point);
+            assert_eq!(Outlook::axis(rough), Outlook::axis(cell), "{point:?}");
+            if !outlook.candidates(cell).is_empty() {
+                kept += 1;
+                assert!(outlook.may_go_on(rough, 0), "{point:?}");
+                // 0.3 lies between 38 and 39 of 128.
+                assert!(outlook.may_go_on(rough, 38 << 25), "{point:?}");
+                assert!(!outlook.may_go_on(rough, 39 << 25), "{point:?}");
+            }
+        }
+        assert!(kept > 30_000, "{kept}");
     }
 }

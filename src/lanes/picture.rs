@@ -39,10 +39,8 @@ pub fn take_picture(
         |tracer, (row, pixels)| {
             for (group, pixels) in pixels.chunks_mut(3 * GROUP).enumerate() {
                 let ray = |pixel: usize| {
-                    camera.generate_ray_for_normalized_coordinates(
-                        (group * GROUP + pixel) as f32 / width as f32,
-                        row as f32 / height as f32,
-                    )
+                    let column = (group * GROUP + pixel) as u32;
+                    image_writer::camera_ray(camera, column, row as u32, width, height)
                 };
                 let camera_rays: Vec<_> = (0..pixels.len() / 3).map(ray).collect();
                 let colors = tracer.sample_colors(&camera_rays);

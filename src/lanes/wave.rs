@@ -8,17 +8,22 @@ use glam::Vec3;
 use super::chacha::{self, number};
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
-use super::emission::{self, Aim, Aims, Emission, Emit, is_in_sphere};
-use super::outlook::{Outlook, ShearedDirection};
+use super::emission::{self, Aim, Aims, Emission, Emit, coordinate, is_in_sphere};
+use super::first_hit::FirstHits;
+use super::outlook::Outlook;
 use super::scattering::Scatter;
 use super::{LaneTracer, Surface};
 use crate::photon_list::record::PhotonRecord;
 use crate::scene::lights::point_light::PointLight;
 use crate::scene::ray::Ray;
 
-/// How many groups of photons leave the light before those that need a second block get one
-/// together.
-const GROUPS: usize = 16;
+/// A photon on its way from the light.
+#[derive(Clone, Copy, Debug)]
+struct Departure {
+    direction: Vec3,
+    /// The numbers with which it goes on.
+    draws: Draws,
+}
 
 /// A photon on a surface.
 #[derive(Clone, Copy, Debug)]
@@ -32,11 +37,17 @@ struct Arrival {
 }
 
 /// The photons that are on a surface after the same number of bounces, in order.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Arrivals {
     places: Vec<Arrival>,
     /// The numbers with which each goes on.
     draws: Vec<Draws>,
+}
+
+impl Arrivals {
+    fn with_capacity(count: usize) -> Self {
+        Self { places: Vec::with_capacity(count), draws: Vec::with_capacity(count) }
+    }
 }
 
 impl LaneTracer<'_> {
@@ -79,57 +90,79 @@ impl LaneTracer<'_> {
         &self.surfaces[arrival.triangle as usize]
     }
 
-    /// Where the photons `photons` of `light` hit first, in order.
+    /// Where the photons `photons` of `light` hit first, in order, without some that are absorbed
+    /// there.
     fn emit(&self, light: &PointLight, outlook: &Outlook, photons: Range<u64>) -> Arrivals {
-        let seed = self.renderer.seed;
-        let mut emissions = vec![Emission::default(); GROUPS];
-        let mut words = [[0; emission::GROUP]; chacha::WORDS];
+        let mut departures = self.depart(outlook, photons);
+        let triangles = self.surfaces.len();
+        let mut first_hits = FirstHits::new(outlook, self.width, triangles, departures.len());
+        let mut point = [[0.0; emission::GROUP]; 3];
         let mut aims = Aims::default();
-        // Of the handout's photons, one in four arrives.
-        let expected = (photons.end - photons.start) as usize / 4;
-        let mut arrivals =
-            Arrivals { places: Vec::with_capacity(expected), draws: Vec::with_capacity(expected) };
-        for first in photons.clone().step_by(GROUPS * emission::GROUP) {
-            let count = (photons.end - first).min((GROUPS * emission::GROUP) as u64) as usize;
-            let first = first as u32;
-            let emissions = &mut emissions[..count.div_ceil(emission::GROUP)];
-            for (group, emission) in emissions.iter_mut().enumerate() {
-                let first = first.wrapping_add((group * emission::GROUP) as u32);
-                self.width.run(Emit { seed, first, words: &mut words, emission });
+        for (group, departures) in departures.chunks_mut(emission::GROUP).enumerate() {
+            for (lane, departure) in departures.iter().enumerate() {
+                for (column, coordinate) in point.iter_mut().zip(departure.direction.to_array()) {
+                    column[lane] = coordinate;
+                }
             }
-            self.try_again(first, count, emissions);
-            for (group, emission) in emissions.iter().enumerate() {
-                self.width.run(Aim { point: &emission.point, aims: &mut aims });
-                let start = group * emission::GROUP;
-                // Without a branch, since which cells are empty cannot be predicted.
-                let mut lanes = [0; emission::GROUP];
-                let mut candidates = 0;
-                for lane in 0..emission::GROUP.min(count - start) {
-                    lanes[candidates] = lane;
-                    candidates += usize::from(outlook.occupied(aims.cell[lane]));
-                }
-                for &lane in &lanes[..candidates] {
-                    let of_lane = |columns: &[[f32; emission::GROUP]; 3]| {
-                        Vec3::from_array([0, 1, 2].map(|c| columns[c][lane]))
-                    };
-                    let sheared =
-                        ShearedDirection { cell: aims.cell[lane], shear: of_lane(&aims.shear) };
-                    let Some((triangle, t)) = outlook.closest(sheared) else {
-                        continue;
-                    };
-                    let direction = of_lane(&aims.direction);
-                    let point = Ray::new(light.position, direction).ray_position(t);
-                    arrivals.places.push(Arrival { point, direction, t, triangle });
-                    arrivals.draws.push(Draws {
-                        photon: first + (start + lane) as u32,
-                        drawn: emission.drawn[lane],
-                        words: [0, 1, 2].map(|n| emission.next[n][lane]),
-                    });
-                }
+            let first = (group * emission::GROUP) as u32;
+            self.width.run(Aim { point: &point, first, aims: &mut aims });
+            for (lane, departure) in departures.iter_mut().enumerate() {
+                departure.direction = Vec3::from_array([0, 1, 2].map(|c| aims.direction[c][lane]));
+                first_hits.add(aims.cell[lane], aims.aimed[lane]);
+            }
+        }
+        first_hits.finish();
+        let mut arrivals = Arrivals::with_capacity(departures.len());
+        for (Departure { direction, draws }, hit) in departures.into_iter().zip(&first_hits.hits) {
+            if hit.triangle != NONE {
+                let point = Ray::new(light.position, direction).ray_position(hit.t);
+                let (t, triangle) = (hit.t, hit.triangle);
+                arrivals.places.push(Arrival { point, direction, t, triangle });
+                arrivals.draws.push(draws);
             }
         }
         self.complete(&mut arrivals.draws);
         arrivals
+    }
+
+    /// Those of the photons `photons` that may hit something and be reflected there, in order, with
+    /// directions that are not yet normalised.
+    fn depart(&self, outlook: &Outlook, photons: Range<u64>) -> Vec<Departure> {
+        let mut emission = Emission::default();
+        // Of the handout's photons, one in five.
+        let expected = (photons.end - photons.start) as usize / 4;
+        let mut departures: Vec<Departure> = Vec::with_capacity(expected);
+        // The places of those for which the first block was not long enough.
+        let mut again = Vec::new();
+        for first in photons.clone().step_by(emission::GROUP) {
+            let count = (photons.end - first).min(emission::GROUP as u64) as usize;
+            let first = first as u32;
+            let seed = self.renderer.seed;
+            self.width.run(Emit { seed, first, emission: &mut emission });
+            // Without a branch, since which photons these are cannot be predicted.
+            let mut lanes = [0; emission::GROUP];
+            let mut departing = 0;
+            for (lane, (cell, roulette)) in emission.cell.iter().zip(&emission.next[0]).enumerate()
+            {
+                lanes[departing % emission::GROUP] = lane as u8;
+                departing += usize::from(outlook.may_go_on(*cell, *roulette) & (lane < count));
+            }
+            departures.extend(lanes[..departing].iter().map(|&lane| {
+                let at = usize::from(lane) % emission::GROUP;
+                Departure {
+                    direction: Vec3::from_array([0, 1, 2].map(|c| emission.point[c][at])),
+                    draws: Draws {
+                        photon: first.wrapping_add(lane.into()),
+                        drawn: emission.drawn[at],
+                        words: [0, 1, 2].map(|n| emission.next[n][at]),
+                    },
+                }
+            }));
+            let places = departures.len() - departing..departures.len();
+            again.extend(places.filter(|place| departures[*place].draws.drawn == 0));
+        }
+        self.try_again(&mut departures, again);
+        departures
     }
 
     /// Draws again what the first block was not long enough for.
@@ -143,35 +176,26 @@ impl LaneTracer<'_> {
         }
     }
 
-    /// Goes on with the rejection loops for which the first block was not long enough.
-    fn try_again(&self, first: u32, count: usize, emissions: &mut [Emission]) {
-        let mut tries = Vec::new();
-        for (group, emission) in emissions.iter().enumerate() {
-            for (lane, drawn) in emission.drawn.iter().enumerate() {
-                let place = group * emission::GROUP + lane;
-                if *drawn == 0 && place < count {
-                    let photon = first + place as u32;
-                    tries.push(Draws { photon, drawn: emission::DRAWN_IN_VAIN, words: [0; 3] });
-                }
-            }
-        }
+    /// Goes on with the rejection loops of the departures at `places`.
+    fn try_again(&self, departures: &mut [Departure], mut places: Vec<usize>) {
+        let of_place = |place: &usize| {
+            let photon = departures[*place].draws.photon;
+            Draws { photon, drawn: emission::DRAWN_IN_VAIN, words: [0; 3] }
+        };
+        let mut tries: Vec<Draws> = places.iter().map(of_place).collect();
         while !tries.is_empty() {
             draws::fill(self.width, self.renderer.seed, &mut tries);
-            tries.retain_mut(|draws| {
+            let mut remaining = 0;
+            for at in 0..tries.len() {
+                let mut draws = tries[at];
                 draws.drawn += 3;
-                let point = draws.words.map(|word| 2.0 * number(word) - 1.0);
-                let is_accepted = is_in_sphere(Vec3::from_array(point));
-                if is_accepted {
-                    let place = (draws.photon - first) as usize;
-                    let emission = &mut emissions[place / emission::GROUP];
-                    let lane = place % emission::GROUP;
-                    emission.drawn[lane] = draws.drawn;
-                    for (column, coordinate) in emission.point.iter_mut().zip(point) {
-                        column[lane] = coordinate;
-                    }
-                }
-                !is_accepted
-            });
+                let point = Vec3::from_array(draws.words.map(coordinate));
+                let departure = &mut departures[places[at]];
+                (departure.direction, departure.draws.drawn) = (point, draws.drawn);
+                (tries[remaining], places[remaining]) = (draws, places[at]);
+                remaining += usize::from(!is_in_sphere(point));
+            }
+            tries.truncate(remaining);
         }
     }
 
@@ -190,7 +214,8 @@ impl LaneTracer<'_> {
         let mut needed = [0.0; closest_hit::GROUP];
         let mut rays = Rays::default();
         let mut hits = Hits::default();
-        let mut next = Arrivals::default();
+        // Of the handout's photons, one in four.
+        let mut next = Arrivals::with_capacity(survivors.len() / 3);
         for group in survivors.chunks(closest_hit::GROUP) {
             for (lane, place) in group.iter().enumerate() {
                 let (arrival, draws) = (&arrivals.places[*place], &arrivals.draws[*place]);
@@ -240,6 +265,7 @@ fn join(by_bounce: &[Vec<PhotonRecord>], records: &mut Vec<PhotonRecord>) {
     let Some((first, later)) = by_bounce.split_first() else {
         return;
     };
+    records.reserve(by_bounce.iter().map(Vec::len).sum());
     let mut later: Vec<_> = later.iter().map(|records| records.iter().peekable()).collect();
     for record in first {
         records.push(*record);

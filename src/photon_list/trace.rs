@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
+use super::in_order::in_order;
 use super::record::PhotonRecord;
 use crate::lanes::LaneTracer;
 use crate::lanes::width::Width;
@@ -12,12 +11,9 @@ use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRendere
 
 /// How many photons a thread traces before it takes the next piece.
 const PIECE: u64 = 8192;
-/// How many pieces are in memory at once while the pieces before them are consumed.
-const PIECES_IN_WAVE: u64 = 64;
 
 /// Traces the photons numbered `photons` on all threads of the current rayon pool and hands their
-/// records to `consume` in order, with the number of photons done so far. Memory does not grow with
-/// the number of photons.
+/// records to `consume` in order, with the number of photons done so far: see [`in_order`].
 ///
 /// # Errors
 /// The first error of `consume`, which ends the tracing.
@@ -31,31 +27,13 @@ pub fn trace_list<E: Send>(
         Some(lanes) => lanes.trace_piece(piece),
         None => trace_piece(renderer, piece),
     };
-    let mut traced: Vec<(Range<u64>, Vec<PhotonRecord>)> = Vec::new();
-    let mut next = photons.start;
-    loop {
-        let wave_end = photons.end.min(next + PIECE * PIECES_IN_WAVE);
-        let pieces: Vec<_> = (next..wave_end)
-            .step_by(PIECE as usize)
-            .map(|start| start..wave_end.min(start + PIECE))
-            .collect();
-        let is_last = pieces.is_empty();
-        // One wave is written while the next one is traced.
-        let (consumed, wave) = rayon::join(
-            || {
-                traced
-                    .iter()
-                    .try_for_each(|(piece, records)| consume(records, piece.end - photons.start))
-            },
-            || pieces.into_par_iter().map(|piece| (piece.clone(), trace(piece))).collect(),
-        );
-        consumed?;
-        if is_last {
-            return Ok(());
-        }
-        traced = wave;
-        next = wave_end;
-    }
+    let pieces = photons.clone().step_by(PIECE as usize);
+    let pieces = pieces.map(|start| start..photons.end.min(start + PIECE));
+    in_order(
+        pieces,
+        |piece| (piece.end, trace(piece)),
+        |(end, records)| consume(&records, end - photons.start),
+    )
 }
 
 /// Traces the photons numbered `photons` on this thread.

@@ -1,6 +1,7 @@
 //! From photons and camera rays to a picture.
 
 pub mod backward_renderer;
+pub mod dots;
 pub mod image_writer;
 pub mod photon;
 pub mod photon_map;

@@ -21,8 +21,8 @@ use super::ray::Ray;
 use super::triangle::{ShearedRay, Triangle, meet};
 
 /// Scenes with at most this many triangles have no tree, so that what a student steps through stays
-/// plain. A tree would be faster for one ray even at 24 triangles (`benches/speed.rs`: 6 times), but
-/// these scenes are traced in lanes.
+/// plain. A tree would be faster for one ray even at 24 triangles (`benches/speed.rs`), but such scenes are
+/// traced in lanes: see [`crate::lanes::MOST_TRIANGLES`].
 pub const FEW: usize = 64;
 
 const WIDTH: usize = 8;
