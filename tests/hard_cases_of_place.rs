@@ -22,10 +22,6 @@ use photon_mapping::scene::{LARGE_EPSILON, Scene};
 /// what the oracle of the unmoved scene expects.
 fn check(judgement: &Judgement, count: u64, case: &str) {
     assert_eq!(judgement.impossible(), [0; 3], "{case}: self-hits, leaks, under boxes");
-    check_counts(judgement, count, case);
-}
-
-fn check_counts(judgement: &Judgement, count: u64, case: &str) {
     let expected = ExpectedTable::of_assignment8();
     for (surface, row) in expected.surfaces.iter().enumerate() {
         let deviation = (expected.covariance[surface][surface] * count as f64).sqrt();
@@ -160,8 +156,8 @@ fn judge_misses_nothing() {
 }
 
 /// What the tests above hold, for 10^8 photons each: `cargo test --release -- --ignored --nocapture`.
-/// Every case has a seed of its own, since the paths of a moved scene are those at home. One photon in
-/// about 10^8 lands within one rounding of an edge and comes out on its other side.
+/// Every case has a seed of its own, since the paths of a moved scene are those at home. A ray in some
+/// 10^8 hits an edge of a box and is given to the face behind it.
 #[test]
 #[ignore = "takes many minutes"]
 fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
@@ -182,19 +178,20 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
         let case = format!("scaled by {scale:e}");
         (case, moved_handout(scale, DVec3::ZERO, 0, PHOTONS))
     });
-    println!("case, rays, self-hits, leaks, under boxes, seconds");
+    println!("case, rays, self-hits, leaks, under boxes, at edges, seconds");
     let cases = details.into_iter().chain(moved).chain(scaled);
     for (seed, (case, renderer)) in (1100..).zip(cases) {
         let start = Instant::now();
         let judgement = Judge::new(&PhotonMappingRenderer { seed, ..renderer }).judge(0..PHOTONS);
-        let [self_hits, leaks, under_boxes] = judgement.impossible();
         // One ray left the light for every photon, and another a surface for every one that was stored.
         let stored: u64 = judgement.stored.iter().sum();
         let seconds = start.elapsed().as_secs_f64();
-        println!("{case}, {}, {self_hits}, {leaks}, {under_boxes}, {seconds:.1}", PHOTONS + stored);
+        let (impossible, at_edges) = (judgement.impossible(), judgement.at_edges);
+        println!("{case}, {}, {impossible:?}, {at_edges}, {seconds:.1}", PHOTONS + stored);
         assert!(stored > PHOTONS / 20, "{case}: only {stored} photons were judged");
-        assert!(self_hits == 0 && leaks <= 3 && under_boxes == 0, "{case}");
-        check_counts(&judgement, PHOTONS, &case);
+        // Those within one rounding of an edge: about one in 10^9 photons.
+        assert!(judgement.at_edges + judgement.leaks <= 4, "{case}");
+        check(&Judgement { leaks: 0, ..judgement }, PHOTONS, &case);
     }
 }
 

@@ -20,6 +20,9 @@ pub struct Judgement {
     pub self_hits: u64,
     /// Hits from behind: every surface of the scene is closed or faces all others.
     pub leaks: u64,
+    /// Hits from behind at an edge of a box, where the face in front is hit too: of two at the same
+    /// distance the first counts, whichever way it looks.
+    pub at_edges: u64,
     /// Photons on the floor inside the footprint of a box.
     pub under_boxes: u64,
 }
@@ -34,6 +37,7 @@ impl Judgement {
         self.stored.iter_mut().zip(other.stored).for_each(|(sum, stored)| *sum += stored);
         self.self_hits += other.self_hits;
         self.leaks += other.leaks;
+        self.at_edges += other.at_edges;
         self.under_boxes += other.under_boxes;
         self
     }
@@ -63,8 +67,8 @@ impl Plane {
         }
     }
 
-    fn holds(&self, record: &PhotonRecord) -> bool {
-        let distance = self.normal.dot(record.position.as_dvec3()) - self.distance;
+    fn holds(&self, point: DVec3) -> bool {
+        let distance = self.normal.dot(point) - self.distance;
         distance.abs() < self.tolerance
     }
 }
@@ -114,7 +118,8 @@ impl Judge {
             self.judge_records(&records)
         };
         let starts: Vec<_> = photons.clone().step_by(PIECE).collect();
-        starts.into_par_iter().map(piece).reduce(Judgement::default, Judgement::join)
+        let pieces: Vec<_> = starts.into_par_iter().map(piece).collect();
+        pieces.into_iter().fold(Judgement::default(), Judgement::join)
     }
 
     /// Judges the photons numbered `photons` by their paths alone.
@@ -136,7 +141,9 @@ impl Judge {
                 judgement.stored[usize::from(record.surface)] += 1;
                 let mut face = None;
                 for plane in &self.planes {
-                    if plane.surface == usize::from(record.surface) && plane.holds(record) {
+                    if plane.surface == usize::from(record.surface)
+                        && plane.holds(record.position.as_dvec3())
+                    {
                         is_suspect |= plane.normal.dot(record.to_light.as_dvec3()) <= 0.0;
                         face = Some((plane.surface, plane.facet));
                     }
@@ -166,7 +173,14 @@ impl Judge {
                 if face == left {
                     judgement.self_hits += 1;
                 } else if plane.normal.dot(direction) >= 0.0 {
-                    judgement.leaks += 1;
+                    let point = state.intersection_point().as_dvec3();
+                    let is_at_edge = self.planes.iter().any(|other| {
+                        other.surface == plane.surface
+                            && other.normal.dot(direction) < 0.0
+                            && other.holds(point)
+                    });
+                    judgement.at_edges += u64::from(is_at_edge);
+                    judgement.leaks += u64::from(!is_at_edge);
                 } else if plane.surface == self.floor
                     && self.is_under_a_box(state.intersection_point().as_dvec3())
                 {
