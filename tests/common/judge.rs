@@ -118,7 +118,8 @@ impl Judge {
             self.judge_records(&records)
         };
         let starts: Vec<_> = photons.clone().step_by(PIECE).collect();
-        starts.into_par_iter().map(piece).reduce(Judgement::default, Judgement::join)
+        let pieces: Vec<_> = starts.into_par_iter().map(piece).collect();
+        pieces.into_iter().fold(Judgement::default(), Judgement::join)
     }
 
     /// Judges the photons numbered `photons` by their paths alone.
