@@ -234,3 +234,55 @@ impl Hits {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::width::Width;
+    use crate::random::photon_random;
+    use crate::scene::triangle::Triangle;
+
+    /// Rays exactly at corners and edges, which scattered ones seldom are.
+    #[test]
+    fn closest_hits_are_those_of_the_scene() {
+        let mut met = 0;
+        for number in 0..300 {
+            let mut random = photon_random(12, number);
+            let mut point = || Vec3::from_array([0; 3].map(|_| (random() * 7.0).floor() - 3.0));
+            let triangle = |vertices: [Vec3; 3]| Triangle {
+                vertices,
+                normal: Vec3::Z,
+                parent_mesh_object: 0,
+                facet: 0,
+            };
+            let triangles: Vec<Triangle> =
+                (0..12).map(|_| triangle([point(), point(), point()])).collect();
+            let mut rays = Rays::default();
+            for lane in 0..GROUP {
+                let Triangle { vertices: [a, b, c], .. } = triangles[lane % triangles.len()];
+                let target = [a, 0.5 * (b + c), (a + b + c) / 3.0][lane % 3];
+                let start = point();
+                let direction = (target - start).try_normalize().unwrap_or(Vec3::X);
+                rays.set(lane, &Ray::new(start, direction));
+            }
+            let scene = Scene::new(Vec::new(), triangles, Vec::new());
+            let corners = SharedCorners::new(&scene);
+            for width in Width::available() {
+                let mut hits = Hits::default();
+                width.run(Closest { scene: &corners, rays: &rays, hits: &mut hits });
+                hits.settle(&scene, &rays, GROUP);
+                for lane in 0..GROUP {
+                    let mut state = IntersectionState::new();
+                    let is_met = scene.trace(&rays.ray(lane), Some(&mut state));
+                    assert_eq!(is_met, hits.triangle[lane] != NONE);
+                    if is_met {
+                        assert_eq!(state.intersected_primitive as u32, hits.triangle[lane]);
+                        assert_eq!(state.intersection_t.to_bits(), hits.t[lane].to_bits());
+                        met += 1;
+                    }
+                }
+            }
+        }
+        assert!(met > 5000, "{met}");
+    }
+}

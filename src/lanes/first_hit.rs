@@ -148,3 +148,61 @@ impl NullaryFnOnce for Meet<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::outlook::aim;
+    use super::*;
+    use crate::random::photon_random;
+    use crate::scene::Scene;
+    use crate::scene::intersection_state::IntersectionState;
+    use crate::scene::ray::Ray;
+    use crate::scene::triangle::Triangle;
+
+    /// Photons fly exactly at corners and edges here, which drawn ones seldom do.
+    #[test]
+    fn first_hits_are_those_of_the_scene() {
+        let mut met = 0;
+        for number in 0..300 {
+            let mut random = photon_random(11, number);
+            let mut point = || Vec3::from_array([0; 3].map(|_| (random() * 7.0).floor() - 3.0));
+            let triangles: Vec<Triangle> = (0..12)
+                .map(|_| Triangle {
+                    vertices: [point(), point(), point()],
+                    normal: Vec3::Z,
+                    parent_mesh_object: 0,
+                    facet: 0,
+                })
+                .collect();
+            let light = point();
+            let mut targets: Vec<Vec3> = (0..20).map(|_| point()).collect();
+            for Triangle { vertices: [a, b, c], .. } in &triangles {
+                targets.extend([*a, 0.5 * (*b + *c), (*a + *b + *c) / 3.0]);
+            }
+            let directions = targets.iter().filter_map(|target| (*target - light).try_normalize());
+            let directions: Vec<Vec3> = directions.collect();
+            let scene = Scene::new(Vec::new(), triangles, Vec::new());
+            let outlook = Outlook::new(&scene, light, &[1.0; 12]);
+            for width in Width::available() {
+                let mut found = FirstHits::new(&outlook, width, 12, directions.len());
+                for (place, direction) in directions.iter().enumerate() {
+                    let (cell, shear) = aim(*direction);
+                    let place = f32::from_bits(place as u32);
+                    found.add(cell, [shear.x, shear.y, shear.z, place]);
+                }
+                found.finish();
+                for (direction, hit) in directions.iter().zip(&found.hits) {
+                    let mut state = IntersectionState::new();
+                    let is_met = scene.trace(&Ray::new(light, *direction), Some(&mut state));
+                    assert_eq!(is_met, hit.triangle != NONE);
+                    if is_met {
+                        assert_eq!(state.intersected_primitive as u32, hit.triangle);
+                        assert_eq!(state.intersection_t.to_bits(), hit.t.to_bits());
+                        met += 1;
+                    }
+                }
+            }
+        }
+        assert!(met > 1000, "{met}");
+    }
+}
