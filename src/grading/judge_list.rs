@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
-use super::naming::{Explanation, Known, name};
+use super::naming::{Explanation, Known, can_show, name};
 use super::observation::{Observation, ToLight};
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
@@ -205,23 +205,32 @@ fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
     ]
 }
 
-/// The fair reading under which `observation` is least strange.
+/// The fair reading under which `observation` is least strange. Where it is strange under all of them, what
+/// was found is told beside the reference's numbers, which people know.
 fn best_trial(
     observation: &Observation,
     emitted: Option<f64>,
     expectations: &Expectations,
 ) -> Trial {
-    let trials = expectations.signatures.fair.iter().enumerate();
-    let trials = trials.map(|(reading, signature)| {
+    let signatures = expectations.signatures.fair.iter().enumerate();
+    let mut trials = signatures.map(|(reading, signature)| {
         attempt(observation, emitted, reading, signature, expectations)
     });
-    // The first, which is the reference's, unless another one is clearly better.
-    trials
-        .reduce(|best, trial| {
-            let is_better = trial.p_value > best.p_value && best.p_value < 0.01;
-            if is_better { trial } else { best }
-        })
-        .expect("there is at least one fair reading")
+    let reference = trials.next().expect("the reference is the first of the fair readings");
+    if reference.p_value >= 0.01 {
+        return reference;
+    }
+    let best = trials.max_by(|a, b| a.p_value.total_cmp(&b.p_value));
+    match best {
+        Some(best) if best.p_value >= SIGNIFICANCE && best.p_value > reference.p_value => best,
+        Some(best) if best.p_value > reference.p_value => {
+            let p_values = best.tests.iter().map(|test| test.p_value);
+            let mut told = Trial { p_value: best.p_value, ..reference };
+            told.tests.iter_mut().zip(p_values).for_each(|(test, p_value)| test.p_value = p_value);
+            told
+        }
+        _ => reference,
+    }
 }
 
 fn attempt(
@@ -274,6 +283,9 @@ fn attempt(
     let mut farthest_towards = (0.0, "");
     let hypotheses = expectations.misreadings.iter();
     for (hypothesis, other) in hypotheses.zip(&expectations.signatures.misreadings) {
+        if !can_show(hypothesis, expectations.signatures.max_bounces) {
+            continue;
+        }
         let (_, other) = without_last(&law_of(other), &other.classes);
         let z = towards(&counts, &law, &other, emitted);
         if z > farthest_towards.0 {

@@ -11,7 +11,7 @@ use super::variation::FACETS;
 /// misreading is not all of it.
 const LEEWAY: f64 = 0.02;
 /// Self-hits depend on rounding, from facet to facet and from bounce to bounce.
-const LEEWAY_OF_SELF_HITS: f64 = 0.1;
+const LEEWAY_OF_SELF_HITS: f64 = 0.25;
 /// A misreading that would show so little as what is seen less often than this explains nothing.
 const LEAST_LIKELY: f64 = 1e-4;
 /// The part of all photons that are at the same place as another one: up to the first, rounding explains
@@ -45,6 +45,12 @@ pub struct Known<'a> {
     pub max_bounces: i32,
 }
 
+/// Whether `hypothesis` stores other photons than the reference at all, where photons may bounce
+/// `max_bounces` times.
+pub fn can_show(hypothesis: &Hypothesis, max_bounces: i32) -> bool {
+    hypothesis.id != "bounce-off-by-one" || max_bounces <= SMALL_LIMIT
+}
+
 /// The misreading that explains `observation`, if one does and no other does as well.
 pub fn name(
     observation: &Observation,
@@ -65,9 +71,7 @@ pub fn name(
     let is_possible = |hypothesis: &Hypothesis| match hypothesis.id {
         "nan-frame" => of_nan > 0.2,
         "transposed-frame" | "flipped-normal" => of_nan == 0.0,
-        "bounce-off-by-one" => {
-            of_nan == 0.0 && repeated < MANY_REPEATED && known.max_bounces <= SMALL_LIMIT
-        }
+        "bounce-off-by-one" => of_nan == 0.0 && repeated < MANY_REPEATED,
         "direct-stored" => {
             of_nan == 0.0 && repeated < MANY_REPEATED && straight.is_none_or(|part| part > 0.5)
         }
@@ -84,7 +88,7 @@ pub fn name(
         candidates.push(Explanation { hypothesis: hypothesis.clone(), fit, confidence: 0.0 });
     };
     for (hypothesis, signature) in known.hypotheses.iter().zip(known.signatures) {
-        if is_possible(hypothesis) {
+        if is_possible(hypothesis) && can_show(hypothesis, known.max_bounces) {
             consider(hypothesis, signature, LEEWAY);
         }
     }

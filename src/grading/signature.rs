@@ -58,15 +58,23 @@ pub struct Effort {
     pub main: u64,
     /// For the other fair readings.
     pub fair: u64,
-    /// For each misreading.
+    /// For each misreading that the fast path can trace.
     pub misreading: u64,
+    /// For each other misreading.
+    pub slow_misreading: u64,
 }
 
 impl Effort {
     /// For the signatures that are kept.
-    pub const FULL: Self = Self { main: 100_000_000, fair: 30_000_000, misreading: 4_000_000 };
+    pub const FULL: Self = Self {
+        main: 100_000_000,
+        fair: 30_000_000,
+        misreading: 4_000_000,
+        slow_misreading: 4_000_000,
+    };
     /// For a limit of bounces of a course's own, in a few seconds.
-    pub const QUICK: Self = Self { main: 10_000_000, fair: 4_000_000, misreading: 500_000 };
+    pub const QUICK: Self =
+        Self { main: 8_000_000, fair: 2_000_000, misreading: 1_000_000, slow_misreading: 200_000 };
 }
 
 impl Signatures {
@@ -89,10 +97,12 @@ impl Signatures {
             }
             fair.push(signature);
         }
-        let misreadings = misreadings()
-            .iter()
-            .map(|hypothesis| measure(hypothesis, places, effort.misreading, max_bounces).0)
-            .collect();
+        let of_misreading = |hypothesis: &Hypothesis| {
+            let is_fast = hypothesis.variation.is_fast();
+            let emitted = if is_fast { effort.misreading } else { effort.slow_misreading };
+            measure(hypothesis, places, emitted, max_bounces).0
+        };
+        let misreadings = misreadings().iter().map(of_misreading).collect();
         Self { max_bounces, fair, misreadings, correlation }
     }
 }

@@ -26,8 +26,15 @@ pub fn text(grade: &Grade, best: f64) -> String {
     } else if grade.verdict == Verdict::Incorrect {
         text += "  misreading: none of the known ones explains it\n";
     }
+    let mut advised = "";
     for finding in &grade.findings {
         text += &line(finding);
+        // The faults of one misreading share their advice.
+        if !finding.passed && !finding.advice.is_empty() && finding.advice != advised {
+            let section = finding.section.map(|section| format!("[{section}] "));
+            text += &format!("         {}{}\n", section.unwrap_or_default(), finding.advice);
+            advised = &finding.advice;
+        }
     }
     text
 }
@@ -40,17 +47,13 @@ fn line(finding: &Finding) -> String {
     };
     let chance = match finding.p_value {
         Some(p_value) if p_value < 1e-300 => ", p < 1e-300".to_owned(),
-        Some(p_value) if p_value < 0.001 => format!(", p = {p_value:.0e}"),
+        Some(p_value) if p_value < 0.01 => format!(", p = {p_value:.0e}"),
         Some(p_value) => format!(", p = {p_value:.2}"),
         None => String::new(),
     };
     let mut line = format!("  {mark} {}: {}{chance}\n", finding.check, finding.found);
     if !finding.passed {
         line += &format!("         expected: {}\n", finding.expected);
-        let section = finding.section.map(|section| format!("[{section}] ")).unwrap_or_default();
-        if !finding.advice.is_empty() {
-            line += &format!("         {section}{}\n", finding.advice);
-        }
     }
     line
 }

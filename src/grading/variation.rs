@@ -12,7 +12,8 @@ use crate::lanes::width::Width;
 use crate::photon_list::record::PhotonRecord;
 use crate::random::photon_random;
 use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
-use crate::rendering::reading::Reading;
+use crate::rendering::reading::{Reading, TangentBasis};
+use crate::rendering::sampling::tangent_frame;
 use crate::scene::Scene;
 use crate::scene::material::Material;
 use crate::scene::mesh_object::MeshObject;
@@ -87,6 +88,23 @@ impl Default for Variation {
     }
 }
 
+impl Variation {
+    /// Whether the fast path can trace it: it knows readings, materials and normals.
+    pub fn is_fast(&self) -> bool {
+        self.hemisphere == Hemisphere::Cosine
+            && self.reading.tangent_basis != TangentBasis::Transposed
+            && !self.cube_directions
+            && !self.direct_stored
+            && self.self_hits == [0.0; FACETS]
+            && !self.makes_nan()
+    }
+
+    /// Whether the frame of the right wall has columns that are not numbers.
+    fn makes_nan(&self) -> bool {
+        tangent_frame(Vec3::NEG_X, &self.reading).is_nan()
+    }
+}
+
 /// Traces photons of the assignment's scene under one variation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
@@ -145,15 +163,8 @@ impl Simulation {
     /// What the photons numbered `photons` store, on this thread: path after path. The column `surface`
     /// has the facet.
     pub fn trace(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
-        let Variation { hemisphere, cube_directions, direct_stored, self_hits, .. } =
-            self.variation;
-        let is_plain = hemisphere == Hemisphere::Cosine
-            && !cube_directions
-            && !direct_stored
-            && self_hits == [0.0; FACETS]
-            && !self.makes_nan();
         match LaneTracer::new(&self.renderer, Width::widest()) {
-            Some(lanes) if is_plain => lanes.trace_piece(photons),
+            Some(lanes) if self.variation.is_fast() => lanes.trace_piece(photons),
             _ => self.trace_one_by_one(photons, |photon| photon_random(self.renderer.seed, photon)),
         }
     }
@@ -168,12 +179,6 @@ impl Simulation {
         let numbers = RefCell::new(numbers);
         let next = || numbers.borrow_mut().next().expect("a generator does not end");
         self.trace_one_by_one(photons, |_| next)
-    }
-
-    /// Whether a frame has columns that are not numbers, as that of the wall has.
-    fn makes_nan(&self) -> bool {
-        let frame = crate::rendering::sampling::tangent_frame(Vec3::NEG_X, &self.variation.reading);
-        frame.is_nan()
     }
 
     fn trace_one_by_one<R: FnMut() -> f32>(
@@ -240,7 +245,7 @@ impl Simulation {
                 }
             }
             // Where the direction is not a number, the framework's tests find a hit that is not one.
-            let mut is_lost = self.makes_nan()
+            let mut is_lost = self.variation.makes_nan()
                 && has_scattered_last
                 && records.last().is_none_or(|_| last_is_parallel(&path, &self.renderer));
             while is_lost {
