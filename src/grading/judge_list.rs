@@ -90,6 +90,7 @@ pub fn judge(
     let known = Known {
         hypotheses: &expectations.misreadings,
         signatures: &expectations.signatures.misreadings,
+        reference: &expectations.signatures.fair[0],
         max_bounces: expectations.signatures.max_bounces,
     };
     let mut findings = plain_findings(observation, places);
@@ -159,8 +160,7 @@ fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
             advice: if passed { Cow::Borrowed("") } else { advice.into() },
         };
     let of_all = |count: f64, all: f64| format!("{count:.0} of {all:.0}");
-    let repeated: f64 = observation.repeated.iter().sum();
-    let on_facets: f64 = observation.on_facet.iter().sum();
+    let (repeated, on_facets) = (observation.repeated, counts.on_surfaces());
     let surfaces = places.surfaces.len();
     vec![
         fact(

@@ -1,27 +1,30 @@
 //! Which misreading explains what a submission shows?
 
-use super::hypotheses::{Hypothesis, no_offset, to_the_letter};
+use super::hypotheses::{Hypothesis, no_offset};
 use super::observation::Observation;
 use super::places::Places;
-use super::signature::{Signature, classes, measure};
-use super::statistics::{Fit, fit};
+use super::signature::{Signature, classes};
+use super::statistics::{Fit, fit, towards};
 use super::variation::FACETS;
 
 /// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
 /// misreading is not all of it.
 const LEEWAY: f64 = 0.02;
-/// Self-hits depend on rounding, from facet to facet and from bounce to bounce.
-const LEEWAY_OF_SELF_HITS: f64 = 0.25;
 /// A misreading that would show so little as what is seen less often than this explains nothing.
 const LEAST_LIKELY: f64 = 1e-4;
-/// The part of all photons that are at the same place as another one: up to the first, rounding explains
-/// it; from the second on, self-hits must.
-const FEW_REPEATED: f64 = 0.01;
+/// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
+/// misreadings without them explain nothing.
 const MANY_REPEATED: f64 = 0.03;
 /// Of more bounces than these, hardly a path has the last.
 const SMALL_LIMIT: i32 = 12;
-/// With how many photons self-hits are measured.
-const PHOTONS_FOR_SELF_HITS: u64 = 400_000;
+/// How many standard deviations the places of self-hits must be towards those of first hits: what is
+/// stored twice for another reason is not.
+const FIRST_HITS_SHOW: f64 = 6.0;
+/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first hits,
+/// which are not stored, they make at most so many known. Both are out of reach for rounding, which
+/// brings half of the starts below the surface.
+const LEAST_SCATTERED: f64 = 0.5;
+const MOST_FIRST_HITS: f64 = 0.5;
 
 /// A misreading that explains a submission.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +44,8 @@ pub struct Known<'a> {
     pub hypotheses: &'a [Hypothesis],
     /// Their signatures.
     pub signatures: &'a [Signature],
+    /// The reference's signature.
+    pub reference: &'a Signature,
     /// How often photons may bounce.
     pub max_bounces: i32,
 }
@@ -59,8 +64,7 @@ pub fn name(
     known: Known,
 ) -> Option<Explanation> {
     let counts = classes(&observation.counts, places);
-    let all: f64 = observation.on_facet.iter().sum();
-    let repeated = observation.repeated.iter().sum::<f64>() / all.max(1.0);
+    let repeated = observation.repeated / observation.counts.on_surfaces().max(1.0);
     let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
     let straight = observation
         .to_light
@@ -83,24 +87,50 @@ pub fn name(
         }
     };
     let mut candidates: Vec<Explanation> = Vec::new();
-    let mut consider = |hypothesis: &Hypothesis, signature: &Signature, leeway: f64| {
-        let fit = fit(&counts, &signature.law_of_classes(leeway), emitted);
-        candidates.push(Explanation { hypothesis: hypothesis.clone(), fit, confidence: 0.0 });
-    };
     for (hypothesis, signature) in known.hypotheses.iter().zip(known.signatures) {
         if is_possible(hypothesis) && can_show(hypothesis, known.max_bounces) {
-            consider(hypothesis, signature, LEEWAY);
+            let fit = fit(&counts, &signature.law_of_classes(LEEWAY), emitted);
+            candidates.push(Explanation { hypothesis: hypothesis.clone(), fit, confidence: 0.0 });
         }
     }
-    if repeated > FEW_REPEATED && of_nan == 0.0 {
-        let normalised = no_offset(self_hits(observation, places));
-        for hypothesis in [to_the_letter(&normalised), normalised] {
-            let photons = PHOTONS_FOR_SELF_HITS;
-            let (signature, _) = measure(&hypothesis, places, photons, known.max_bounces);
-            consider(&hypothesis, &signature, LEEWAY_OF_SELF_HITS);
-        }
+    let others = candidates.iter().map(|candidate| candidate.fit.p_value).fold(0.0, f64::max);
+    if others < LEAST_LIKELY && repeated > MANY_REPEATED && of_nan == 0.0 {
+        let fit = explain_by_self_hits(observation, emitted, places, known)?;
+        let hypothesis = no_offset([0.0; FACETS]);
+        return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
     }
     most_likely(candidates)
+}
+
+/// Whether self-hits explain places at which several photons lie. How many there are depends on rounding, from
+/// facet to facet and from bounce to bounce, so their counts follow no law; but what they leave when every
+/// place counts once does: the places of scattered photons, of which a part is lost, and of first hits, of
+/// which a part becomes known.
+fn explain_by_self_hits(
+    observation: &Observation,
+    emitted: Option<f64>,
+    places: &Places,
+    known: Known,
+) -> Option<Fit> {
+    let direct_stored =
+        known.hypotheses.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
+    let with_first_hits = &known.signatures[direct_stored].classes;
+    let law = known.reference.law_of_classes(LEEWAY);
+    let distinct = classes(&observation.distinct, places);
+    let of_distinct = fit(&distinct, &law, emitted);
+    let shows_first_hits = towards(&distinct, &law, with_first_hits, emitted) > FIRST_HITS_SHOW;
+    let size = of_distinct.emitted;
+    let is_between = |class: usize| {
+        let scattered = size * law.mean[class];
+        let first = size * (with_first_hits[class] - law.mean[class]).max(0.0);
+        let by_chance = 5.0 * (scattered + first).sqrt() + 5.0;
+        let least = LEAST_SCATTERED * scattered - by_chance;
+        let most = 1.1 * scattered + MOST_FIRST_HITS * first + by_chance;
+        // Of an unknown size, only the shape of what is left tells.
+        emitted.is_none() || (least..most).contains(&distinct[class])
+    };
+    let explains = shows_first_hits && (0..places.facets.len()).all(is_between);
+    explains.then_some(of_distinct)
 }
 
 fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
@@ -120,18 +150,4 @@ fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
     }
     let confidence = 1.0 / sum;
     (confidence > 0.95).then_some(Explanation { confidence, ..best })
-}
-
-/// By facet, which part of the scattered photons meets it again: of all its photons, those that survive
-/// and meet it again are followed by another one at the same place.
-fn self_hits(observation: &Observation, places: &Places) -> [f32; FACETS] {
-    let scene = crate::assignment8::create_scene();
-    let mut self_hits = [0.0; FACETS];
-    for (facet, part) in self_hits.iter_mut().enumerate() {
-        let material = scene.mesh_objects()[places.facets[facet].surface].material;
-        let survival = f64::from(material.base_diffuse_reflection().max_element());
-        let repeated = observation.repeated[facet] / observation.on_facet[facet].max(1.0);
-        *part = (repeated / survival).clamp(0.0, 0.99) as f32;
-    }
-    self_hits
 }

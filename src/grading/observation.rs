@@ -78,10 +78,10 @@ pub struct Observation {
     pub records: u64,
     /// Where they lie.
     pub counts: Counts,
-    /// By facet: how many have another one at the same place after them.
-    pub repeated: Vec<f64>,
-    /// By facet: all of its photons.
-    pub on_facet: Vec<f64>,
+    /// How many lie on a facet where another one does that is counted already.
+    pub repeated: f64,
+    /// The same without these.
+    pub distinct: Counts,
     /// How many photons were sent out by the word of the intensities, if they agree with each other.
     pub emitted_by_intensity: Option<f64>,
     /// Whether the list has intensities that are of no use.
@@ -99,11 +99,12 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
     let located: Vec<Place> =
         list.records.iter().map(|record| places.place(record.position.as_dvec3())).collect();
     let mut counts = Counts::new(places);
-    let mut on_facet = vec![0.0; places.facets.len()];
-    for place in &located {
+    let mut distinct = Counts::new(places);
+    let repeats = repeats(&list.records, &located);
+    for (place, repeats) in located.iter().zip(&repeats) {
         counts.add(*place);
-        if let Some(facet) = facet_of(*place) {
-            on_facet[facet] += 1.0;
+        if !repeats {
+            distinct.add(*place);
         }
     }
     let bounces = list.columns.bounce.then(|| {
@@ -122,21 +123,14 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
     let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
     Observation {
         records: list.records.len() as u64,
-        repeated: repeated(&list.records, &located, places.facets.len()),
+        repeated: repeats.iter().filter(|repeats| **repeats).count() as f64,
         counts,
-        on_facet,
+        distinct,
         emitted_by_intensity: intensity.flatten(),
         has_odd_intensity: intensity == Some(None) && !list.records.is_empty(),
         to_light: list.columns.to_light.then(|| directions(&list.records, &located, places, light)),
         by_bounce,
         bounces,
-    }
-}
-
-fn facet_of(place: Place) -> Option<usize> {
-    match place {
-        Place::Cell { facet, .. } | Place::Corner { facet } => Some(facet),
-        _ => None,
     }
 }
 
@@ -154,28 +148,27 @@ fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
     agree.then(|| if emitted < 1e6 { emitted.round() } else { emitted })
 }
 
-/// By facet, how many photons have another one at the same place that comes after them on a sweep.
-fn repeated(records: &[PhotonRecord], located: &[Place], facets: usize) -> Vec<f64> {
+/// Which photons have another one at the same place that comes after them on a sweep.
+fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<bool> {
     // Askew to all facets, so that few photons are abreast.
     let way = DVec3::new(0.5342, 0.6171, 0.5777);
-    let mut sweep: Vec<(f64, DVec3, usize)> = records
-        .iter()
-        .zip(located)
-        .filter_map(|(record, place)| {
+    let mut sweep: Vec<(f64, DVec3, usize)> = Vec::new();
+    for (index, (record, place)) in records.iter().zip(located).enumerate() {
+        if matches!(place, Place::Cell { .. } | Place::Corner { .. }) {
             let position = record.position.as_dvec3();
-            facet_of(*place).map(|facet| (position.dot(way), position, facet))
-        })
-        .collect();
-    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let mut repeated = vec![0.0; facets];
-    for (at, (along, position, facet)) in sweep.iter().enumerate() {
-        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
-        let mut near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
-        if near.any(|other| other.1.distance_squared(*position) <= SAME_PLACE * SAME_PLACE) {
-            repeated[*facet] += 1.0;
+            sweep.push((position.dot(way), position, index));
         }
     }
-    repeated
+    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut repeats = vec![false; records.len()];
+    for (at, (along, position, index)) in sweep.iter().enumerate() {
+        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
+        let mut near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
+        let is_same =
+            |other: &(f64, DVec3, usize)| other.1.distance_squared(*position) <= SAME_PLACE.powi(2);
+        repeats[*index] = near.any(is_same);
+    }
+    repeats
 }
 
 fn directions(
