@@ -3,8 +3,9 @@
 //!
 //! A wave of photons takes each step together: [`emission`] draws their directions in the lanes of
 //! the processor's vectors, [`outlook`] tells what a photon from a light may meet and [`first_hit`]
-//! what it meets, [`closest_hit`] what a scattered one meets, [`scattering`] sends those that survive the roulette on, and [`wave`] is
-//! the loop around them. [`picture`] sends camera and shadow rays the same way. [`width`] chooses the vector instructions when the program runs.
+//! what it meets, [`closest_hit`] what a scattered one meets, [`scattering`] sends those that survive
+//! the roulette on, and [`wave`] is the loop around them. [`picture`] sends camera and shadow rays the
+//! same way. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and this
 //! module may only be another order of the same roundings. What can be shared is called, not copied:

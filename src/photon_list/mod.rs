@@ -5,7 +5,7 @@
 
 pub mod csv;
 pub mod error;
-mod in_order;
+pub mod in_order;
 pub mod ply;
 pub mod reader;
 pub mod record;
