@@ -148,7 +148,7 @@ fn gradescope_results() {
     fs::remove_file(&out).unwrap();
     run_line("grade --format gradescope --out {} {} {} {}", &[&out, &right, &wrong, &right])
         .success();
-    assert_eq!(names(&out), ["r.csv-2.json", "r.csv.json", "w.csv.json"]);
+    assert_eq!(names(&out), ["r.csv.json", "r.csv__2_.json", "w.csv.json"]);
     let results: Value =
         serde_json::from_slice(&fs::read(out.join("r.csv.json")).unwrap()).unwrap();
     check_results(&results);

@@ -7,6 +7,7 @@ pub mod pictures;
 pub mod plot;
 pub mod profile;
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::{Mutex, OnceLock};
 
@@ -30,8 +31,10 @@ const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inlin
 /// A larger picture is not shown.
 const MOST_BYTES: u64 = 8 << 20;
 const LONGEST_EDGE: u32 = 4096;
-/// With how many photons the curves of a page are measured.
-const PHOTONS_FOR_CURVES: u64 = 2_000_000;
+/// With how many photons the curves of a page are measured: for the handout, and for a misreading, which
+/// takes longer to trace.
+const PHOTONS_FOR_CURVES: u64 = 1_000_000;
+const PHOTONS_FOR_MISREADINGS: u64 = 300_000;
 
 /// What the pages of one class have in common; each part is made when a page first needs it.
 pub struct Pages<'a> {
@@ -55,10 +58,10 @@ impl<'a> Pages<'a> {
         let body = html! {
             h1 { (grade.submission) }
             (self.verdict(grade, graded.list.as_ref()))
-            (findings(grade))
+            (findings(grade, advice_on_misreading(graded)))
             (self.pictures(submission, graded))
             @if let Some((list, judgement)) = &graded.list {
-                (self.densities(list, judgement))
+                (self.densities(grade, list, judgement))
             }
         };
         document(
@@ -189,22 +192,21 @@ impl<'a> Pages<'a> {
                 }
                 @if let (Some(drawn), Some(reference)) = (&drawn, &reference) {
                     (figure(&pictures::address(&pictures::difference(drawn, reference, self.plain())),
-                            "The difference: more dots than the reference in orange, fewer in blue"))
+                            "The difference beyond what is usual by chance: more dots in orange, fewer in blue"))
                 }
             }
         }
     }
 
-    /// What is expected of one photon under `variation`.
-    fn profile(&self, variation: Variation) -> Profile {
+    /// What is expected of one photon under `variation`, measured with `photons`.
+    fn profile(&self, variation: Variation, photons: u64) -> Profile {
         let kept = || self.profiles.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let known = kept().iter().find(|(other, _)| *other == variation).map(|(_, p)| p.clone());
         // Measured without the lock: a thread that waits for others' pieces may take up another page.
         known.unwrap_or_else(|| {
             let max_bounces = self.expectations.signatures.max_bounces;
             let places = &self.expectations.places;
-            let profile =
-                Profile::expected(variation, max_bounces, places, PHOTONS_FOR_CURVES, 1.0);
+            let profile = Profile::expected(variation, max_bounces, places, photons, 1.0);
             // Self-hits differ from student to student.
             if variation.self_hits == [0.0; FACETS] {
                 kept().push((variation, profile.clone()));
@@ -213,25 +215,31 @@ impl<'a> Pages<'a> {
         })
     }
 
-    fn densities(&self, list: &PhotonList, judgement: &Judgement) -> Markup {
+    fn densities(&self, grade: &Grade, list: &PhotonList, judgement: &Judgement) -> Markup {
         let places = &self.expectations.places;
+        // The reading that fits a wrong list best says nothing: that is held against the reference.
+        let signatures = &self.expectations.signatures;
+        let (reading, signature) = match grade.verdict {
+            Verdict::Correct => (judgement.reading.variation, &judgement.signature),
+            _ => (Variation::default(), &signatures.fair[0]),
+        };
         let emitted = judgement.emitted;
         let first = list.records.iter().map(|record| record.bounce).min().unwrap_or_default();
         let found = Profile::of(&list.records, places, first);
-        let expected = self.profile(judgement.reading.variation).scaled(emitted);
+        let expected = self.profile(reading, PHOTONS_FOR_CURVES).scaled(emitted);
         let misread = judgement.explanation.as_ref();
         let misread = misread.map(|explanation| {
-            self.profile(explanation.hypothesis.variation).scaled(explanation.fit.emitted)
+            self.profile(explanation.hypothesis.variation, PHOTONS_FOR_MISREADINGS)
+                .scaled(explanation.fit.emitted)
         });
-        let signature = &judgement.signature;
         let scaled = |numbers: &[f64]| numbers.iter().map(|n| n * emitted).collect::<Vec<f64>>();
         let (cells, variance) = (scaled(&signature.cells), scaled(&signature.variance));
         html! {
             h2 { "Photons on every face" }
             p.small {
-                "Maps: photons found in each cell divided by those expected; orange where there are more and "
-                "blue where fewer than chance explains. Plots: bars are found, the black line is expected, "
-                "with a grey band of two standard deviations"
+                "Maps: photons found in each cell divided by those expected; in orange where there are more and in "
+                "blue where there are fewer by over two standard deviations. Plots: bars are found, the black "
+                "line is expected, with a grey band of two standard deviations"
                 @if misread.is_some() { "; the orange line is what the misreading leads to" }
                 ". x, y and z are the world's, z up."
             }
@@ -244,10 +252,10 @@ impl<'a> Pages<'a> {
                             (format!("{:.0} found, {:.0} expected", found.facets[at], expected.facets[at]))
                         }
                         (plot::map(facet, &axes, &found.counts.cells, &cells, &variance))
-                        @for (number, axis) in axes.iter().enumerate() {
+                        @for number in Axis::order(&axes) {
                             (PreEscaped(Histogram {
-                                what: format!("photons along {}", axis.name),
-                                ends: axis.ends,
+                                what: format!("photons along {}", axes[number].name),
+                                ends: axes[number].ends,
                                 found: &found.along[at][number],
                                 expected: &expected.along[at][number],
                                 misread: misread.as_ref().map(|misread| &misread.along[at][number][..]),
@@ -273,7 +281,16 @@ impl<'a> Pages<'a> {
     }
 }
 
-fn findings(grade: &Grade) -> Markup {
+fn advice_on_misreading(graded: &Graded) -> Option<&'static str> {
+    let explanation = graded.list.as_ref()?.1.explanation.as_ref()?;
+    Some(explanation.hypothesis.misreading?.advice)
+}
+
+/// The findings of `grade`, of which `said` has been said already.
+fn findings(grade: &Grade, said: Option<&str>) -> Markup {
+    // What several findings advise is said once.
+    let mut said: HashSet<&str> = said.into_iter().collect();
+    let mut card = |finding| card(finding, &mut said);
     let (faults, others): (Vec<_>, Vec<_>) = grade.findings.iter().partition(|f| f.is_fault());
     let (passed, remarks): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| f.passed);
     html! {
@@ -290,7 +307,8 @@ fn findings(grade: &Grade) -> Markup {
     }
 }
 
-fn card(finding: &Finding) -> Markup {
+fn card<'a>(finding: &'a Finding, said: &mut HashSet<&'a str>) -> Markup {
+    let is_new = !finding.advice.is_empty() && said.insert(&finding.advice);
     let kind = match (finding.passed, finding.weight) {
         (true, _) => "passed",
         (false, Weight::Remark) => "remark",
@@ -306,7 +324,7 @@ fn card(finding: &Finding) -> Markup {
                     dt { "by chance" } dd { (chance(p_value)) }
                 }
             }
-            @if !finding.advice.is_empty() { p { (finding.advice) } }
+            @if is_new { p { (finding.advice) } }
         }
     }
 }

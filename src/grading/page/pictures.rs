@@ -17,7 +17,8 @@ pub const MOST_EMITTED: u64 = 20_000_000;
 const REACH: usize = 14;
 /// About how many pixels a dot has.
 const PIXELS_OF_A_DOT: f64 = 6.0;
-/// A difference of so many standard deviations has the full colour.
+/// A difference of fewer standard deviations than the first has no colour, of the second the full one.
+const NONE: f64 = 2.0;
 const FULL: f64 = 6.0;
 const MORE: [f64; 3] = [255.0, 140.0, 0.0];
 const FEWER: [f64; 3] = [40.0, 140.0, 255.0];
@@ -66,13 +67,18 @@ pub fn difference(submission: &RgbImage, reference: &RgbImage, plain: &RgbImage)
         // Dots fall independently, but each has several pixels.
         let spread = (PIXELS_OF_A_DOT * (reference + submission + PIXELS_OF_A_DOT)).sqrt();
         let away = (submission - reference) / spread;
-        let share = (away.abs() / FULL).min(1.0);
+        let share = strength(away);
         let [r, g, b] = plain.get_pixel(x, y).0.map(f64::from);
         let grey = 30.0 + (r + g + b) / 6.0;
         let colour = if away > 0.0 { MORE } else { FEWER };
         *pixel = Rgb(colour.map(|channel| (grey + share * (channel - grey)) as u8));
     }
     picture
+}
+
+/// How strong the colour is of what is `away` standard deviations from its expectation, from 0 to 1.
+pub fn strength(away: f64) -> f64 {
+    ((away.abs() - NONE) / (FULL - NONE)).clamp(0.0, 1.0)
 }
 
 /// How many pixels above and left of each have a dot.

@@ -4,15 +4,14 @@ use maud::{Markup, html};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use super::pictures::strength;
 use super::profile::Axis;
 use crate::grading::places::Facet;
 
 const SIZE: (u32, u32) = (320, 150);
-const FOUND: RGBColor = RGBColor(120, 150, 190);
+const FOUND: RGBColor = RGBColor(40, 100, 170);
 const EXPECTED: RGBColor = RGBColor(20, 20, 20);
 const MISREAD: RGBColor = RGBColor(213, 94, 0);
-/// A difference of so many standard deviations has the full colour.
-const FULL: f64 = 6.0;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Failure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
@@ -46,8 +45,9 @@ impl Histogram<'_> {
     fn draw<'a>(&self, area: &Area<'a>) -> Result<(), Failure<'a>> {
         let [low, high] = self.ends;
         let highest = |counts: &[f64]| counts.iter().copied().fold(1.0, f64::max);
-        let most = highest(self.found).max(highest(self.expected));
-        let most = 1.15 * most.max(self.misread.map_or(0.0, highest));
+        let expected = highest(self.expected);
+        let most = highest(self.found).max(expected + 2.0 * expected.sqrt());
+        let most = 1.05 * most.max(self.misread.map_or(0.0, highest));
         let mut chart = ChartBuilder::on(area)
             .margin(4)
             .margin_right(10)
@@ -69,7 +69,7 @@ impl Histogram<'_> {
         let step = (high - low) / self.found.len() as f64;
         let left = |bin: usize| low + step * bin as f64;
         let bars = self.found.iter().enumerate().map(|(bin, count)| {
-            Rectangle::new([(left(bin), 0.0), (left(bin + 1), *count)], FOUND.filled())
+            Rectangle::new([(left(bin), 0.0), (left(bin + 1), *count)], FOUND.mix(0.3).filled())
         });
         chart.draw_series(bars)?;
         let band = self.expected.iter().enumerate().map(|(bin, count)| {
@@ -78,13 +78,14 @@ impl Histogram<'_> {
                 (left(bin), (count - spread).max(0.0)),
                 (left(bin + 1), (count + spread).min(most)),
             ];
-            Rectangle::new(corners, EXPECTED.mix(0.15).filled())
+            Rectangle::new(corners, EXPECTED.mix(0.12).filled())
         });
         chart.draw_series(band)?;
         let steps = |counts: &[f64]| -> Vec<(f64, f64)> {
             let ends = |(bin, count): (usize, &f64)| [(left(bin), *count), (left(bin + 1), *count)];
             counts.iter().enumerate().flat_map(ends).collect()
         };
+        chart.draw_series(LineSeries::new(steps(self.found), FOUND.stroke_width(2)))?;
         if let Some(misread) = self.misread {
             chart.draw_series(LineSeries::new(steps(misread), MISREAD.stroke_width(2)))?;
         }
@@ -93,8 +94,8 @@ impl Histogram<'_> {
     }
 }
 
-/// The cells of `facet`, seen from its front or from above: in each, how many times as many photons as
-/// expected it has, the more coloured the less likely by chance. `found`, `expected` and `variance` are
+/// The cells of `facet`, the world's x or y to the right and y or z up: in each, how many times as many photons as
+/// expected it has, in colour beyond two standard deviations. `found`, `expected` and `variance` are
 /// by cell of the scene.
 pub fn map(
     facet: &Facet,
@@ -103,7 +104,8 @@ pub fn map(
     expected: &[f64],
     variance: &[f64],
 ) -> Markup {
-    let [across, up] = axes;
+    let [columns, rows] = Axis::order(axes);
+    let (across, up) = (&axes[columns], &axes[rows]);
     let (width, height) = (across.ends[1] - across.ends[0], up.ends[1] - up.ends[0]);
     let scale = 150.0 / width.max(height);
     let (width, height) = (scale * width, scale * height);
@@ -111,8 +113,9 @@ pub fn map(
     let (cell_width, cell_height) = (width / divisions as f64, height / divisions as f64);
     let cells = (0..divisions * divisions).map(|at| {
         let middle = |at: usize| (at as f64 + 0.5) / divisions as f64;
-        let x = across.ascending(middle(at % divisions)) * width - cell_width / 2.0;
-        let y = (1.0 - up.ascending(middle(at / divisions))) * height - cell_height / 2.0;
+        let along = [middle(at % divisions), middle(at / divisions)];
+        let x = across.ascending(along[columns]) * width - cell_width / 2.0;
+        let y = (1.0 - up.ascending(along[rows])) * height - cell_height / 2.0;
         let cell = facet.first_cell + at;
         (x, y, found[cell], expected[cell], variance[cell])
     });
@@ -124,7 +127,7 @@ pub fn map(
                 rect x=(format!("{x:.1}")) y=(format!("{y:.1}"))
                     width=(format!("{cell_width:.1}")) height=(format!("{cell_height:.1}"))
                     fill=(if away > 0.0 { "#e69f00" } else { "#3f8fe0" })
-                    fill-opacity=(format!("{:.2}", (away.abs() / FULL).min(1.0))) stroke="#999" {
+                    fill-opacity=(format!("{:.2}", strength(away))) stroke="#999" {
                     title { (format!("{found:.0} found, {expected:.1} expected ({away:+.1} standard deviations)")) }
                 }
                 text x=(format!("{:.1}", x + cell_width / 2.0))

@@ -45,6 +45,11 @@ impl Axis {
         })
     }
 
+    /// x before y before z, so that z is up.
+    pub fn order(axes: &[Self; 2]) -> [usize; 2] {
+        if axes[0].name < axes[1].name { [0, 1] } else { [1, 0] }
+    }
+
     /// `coordinate` of the facet, from 0 to 1 in ascending order of the world's.
     pub fn ascending(&self, coordinate: f64) -> f64 {
         if self.is_reversed { 1.0 - coordinate } else { coordinate }
