@@ -10,6 +10,8 @@ use super::record::{COLUMNS, PhotonRecord, Value};
 
 /// A line longer than this is no row of a photon list.
 const LONGEST_LINE: u64 = 65_536;
+/// A file with more lines of nothing is no list.
+const MOST_EMPTY_LINES: u64 = 1_000_000;
 
 /// The first line: the names of the columns.
 pub fn header() -> String {
@@ -65,10 +67,17 @@ pub(super) fn read(
     let dialect = Dialect::of(&line)
         .map_err(|message| ListError::malformed(path, format!("line 1: {message}")))?;
     let places = &dialect.naming.places;
+    let mut empty = 0;
     let mut at = if dialect.has_header { next_line(&mut line)? } else { Some(1) };
     while let Some(number) = at {
         let row = line.trim_start_matches('\u{feff}').trim();
-        if !row.is_empty() {
+        if row.is_empty() {
+            empty += 1;
+            if empty > MOST_EMPTY_LINES {
+                let message = format!("line {number}: expected fewer empty lines");
+                return Err(ListError::malformed(path, message));
+            }
+        } else {
             on_record(record(row, &dialect, places).map_err(|message| {
                 ListError::malformed(path, format!("line {number}: {message}"))
             })?)?;

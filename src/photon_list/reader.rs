@@ -10,7 +10,7 @@ use super::record::{Columns, PhotonRecord};
 use super::{csv, ply};
 
 /// A list of five million records, in as many digits as floats can have, is shorter than this.
-const MOST_BYTES: u64 = 2 << 30;
+const MOST_BYTES: u64 = 1 << 30;
 /// So much of a file is looked at to see whether it is a list.
 const LONGEST_START: u64 = 4096;
 

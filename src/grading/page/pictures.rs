@@ -8,15 +8,15 @@ use image::{Rgb, RgbImage};
 use crate::assignment8;
 use crate::lanes::picture::take_picture;
 use crate::lanes::width::Width;
+use crate::photon_list::trace::trace_list;
 use crate::rendering::photon_map::PhotonMap;
-use crate::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 
 /// A reference of more photons than this is drawn with this many.
 pub const MOST_EMITTED: u64 = 20_000_000;
 /// Dots are compared over squares that reach this far from their middle, in pixels.
-const REACH: usize = 14;
+const REACH: usize = 18;
 /// About how many pixels a dot has.
-const PIXELS_OF_A_DOT: f64 = 6.0;
+const PIXELS_OF_A_DOT: f64 = 2.0;
 /// A difference of fewer standard deviations than the first has no colour, of the second the full one.
 const NONE: f64 = 2.0;
 const FULL: f64 = 6.0;
@@ -30,30 +30,28 @@ pub fn direct_light() -> RgbImage {
 
 /// The handout's view with dots at `positions`.
 pub fn with_dots(positions: Vec<Vec3>) -> RgbImage {
-    let mut renderer = renderer();
+    let mut renderer = assignment8::create_renderer(assignment8::create_scene());
     let frame = *renderer.stored_scene.frame();
     let in_scene = |position: Vec3| frame.to_scene(position.as_dvec3());
     renderer.diffuse_map = PhotonMap::new(positions.into_iter().map(in_scene));
-    view(&renderer)
+    let (width, height) = (assignment8::WIDTH, assignment8::HEIGHT);
+    let camera = assignment8::create_camera(width, height);
+    take_picture(&renderer, Width::widest(), &camera, width, height, || ())
 }
 
 /// The handout's view with the photons of the reference, `emitted` of them sent out.
 pub fn of_the_reference(emitted: u64, max_bounces: i32) -> RgbImage {
-    let mut renderer = renderer();
+    let mut renderer = assignment8::create_renderer(assignment8::create_scene());
     renderer.photon_count = emitted.clamp(1, MOST_EMITTED);
     renderer.max_photon_bounces = max_bounces;
-    renderer.initialize_renderer();
-    view(&renderer)
-}
-
-fn renderer() -> PhotonMappingRenderer {
-    assignment8::create_renderer(assignment8::create_scene())
-}
-
-fn view(renderer: &PhotonMappingRenderer) -> RgbImage {
-    let (width, height) = (assignment8::WIDTH, assignment8::HEIGHT);
-    let camera = assignment8::create_camera(width, height);
-    take_picture(renderer, Width::widest(), &camera, width, height, || ())
+    let mut positions = Vec::new();
+    let traced: Result<(), std::convert::Infallible> =
+        trace_list(&renderer, 0..renderer.emitted(), |records, _| {
+            positions.extend(records.iter().map(|record| record.position));
+            Ok(())
+        });
+    let Ok(()) = traced;
+    with_dots(positions)
 }
 
 /// Where `submission` has more dots than `reference` (orange), and where fewer (blue), both over `plain`,
