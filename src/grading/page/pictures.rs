@@ -18,7 +18,7 @@ const REACH: usize = 18;
 /// About how many pixels a dot has.
 const PIXELS_OF_A_DOT: f64 = 2.0;
 /// A difference of fewer standard deviations than the first has no colour, of the second the full one.
-const NONE: f64 = 2.0;
+const NONE: f64 = 2.5;
 const FULL: f64 = 6.0;
 const MORE: [f64; 3] = [255.0, 140.0, 0.0];
 const FEWER: [f64; 3] = [40.0, 140.0, 255.0];
