@@ -17,11 +17,16 @@
 //! A misreading is named when its own counts agree with the submission's and no other's do as well.
 //! `golden/grading.md` has what all of this achieves.
 
+pub mod axes;
+pub mod class;
 pub mod exact;
+pub mod gradescope;
 pub mod hypotheses;
+pub mod intake;
 pub mod judge_list;
 pub mod naming;
 pub mod observation;
+pub mod page;
 pub mod places;
 pub mod policy;
 pub mod signature;

@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::axes;
 use super::exact::exact_comparison;
 use super::judge_list::{Expectations, Judgement, judge};
 use super::observation::observe;
 use super::policy::Policy;
+use super::text::printable;
 use super::verdict::{Finding, Grade, Verdict, Weight};
 use crate::assignment8;
 use crate::photon_list::error::ListError;
@@ -52,12 +54,38 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         return unreadable(submission, settings, "there is no photon list");
     };
     match reader::load_at_most(path, MOST_RECORDS) {
-        Ok(list) => grade_list(submission, list, settings, expectations),
+        Ok((mut list, guessed)) => {
+            let is_turned = axes::turn_to_world(&mut list, &expectations.places);
+            let mut graded = grade_list(submission, list, settings, expectations);
+            let turned =
+                is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
+            let notes = guessed.as_deref().into_iter().chain(turned);
+            graded.grade.findings.extend(notes.map(|note| {
+                let expected = "columns x, y and z, in world space, with commas between them";
+                let advice = "Write the position as the framework has it, under these names.";
+                remark("format", expected, note, advice)
+            }));
+            graded
+        }
         // The name of the submission says already which file it is.
         Err(ListError::Malformed { message, .. }) => unreadable(submission, settings, &message),
         Err(ListError::Unreadable { source, .. }) => {
             unreadable(submission, settings, &format!("it cannot be read: {source}"))
         }
+    }
+}
+
+/// A finding that costs nothing.
+pub fn remark(check: &'static str, expected: &str, found: &str, advice: &'static str) -> Finding {
+    Finding {
+        check,
+        section: None,
+        expected: expected.to_owned(),
+        found: printable(found),
+        p_value: None,
+        passed: false,
+        weight: Weight::Remark,
+        advice: advice.into(),
     }
 }
 
@@ -68,7 +96,7 @@ pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) ->
         section: None,
         expected: "a photon list (CSV or PLY, with the columns x, y and z), or a picture"
             .to_owned(),
-        found: reason.to_owned(),
+        found: printable(reason),
         p_value: None,
         passed: false,
         weight: Weight::Grave,

@@ -4,11 +4,14 @@ use std::fmt::Write as _;
 use std::io::{BufRead, Read};
 use std::path::Path;
 
+use super::dialect::{Dialect, Naming};
 use super::error::ListError;
-use super::record::{COLUMNS, Columns, PhotonRecord, Value};
+use super::record::{COLUMNS, PhotonRecord, Value};
 
 /// A line longer than this is no row of a photon list.
 const LONGEST_LINE: u64 = 65_536;
+/// A file with more lines of nothing is no list.
+const MOST_EMPTY_LINES: u64 = 1_000_000;
 
 /// The first line: the names of the columns.
 pub fn header() -> String {
@@ -26,12 +29,18 @@ pub fn push_line(text: &mut String, record: &PhotonRecord) {
     writeln!(text, "{photon},{bounce},{surface}").expect("a string takes everything");
 }
 
-/// Reads the list in `input`, the contents of the file `path`.
+/// Reads the list in `input`, the contents of the file `path`: also with other separators than commas,
+/// and without names of columns where there are just three.
 pub(super) fn read(
     mut input: impl BufRead,
     path: &Path,
     mut on_record: impl FnMut(PhotonRecord) -> Result<(), ListError>,
-) -> Result<Columns, ListError> {
+) -> Result<Naming, ListError> {
+    let start = input.fill_buf().map_err(|error| ListError::unreadable(path, error))?;
+    if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") {
+        let message = "expected UTF-8 text, found UTF-16, as '>' of PowerShell writes it";
+        return Err(ListError::malformed(path, message));
+    }
     let mut line = String::new();
     let mut number = 0;
     let mut next_line = |line: &mut String| {
@@ -55,39 +64,51 @@ pub(super) fn read(
     if next_line(&mut line)?.is_none() {
         return Err(ListError::malformed(path, "expected a photon list, found an empty file"));
     }
-    let names = line.trim_start_matches('\u{feff}').trim().split(',').map(cell);
-    let (columns, places) = Columns::of(names)
+    let dialect = Dialect::of(&line)
         .map_err(|message| ListError::malformed(path, format!("line 1: {message}")))?;
-    while let Some(number) = next_line(&mut line)? {
-        let row = line.trim();
+    let places = &dialect.naming.places;
+    let mut empty = 0;
+    let mut at = if dialect.has_header { next_line(&mut line)? } else { Some(1) };
+    while let Some(number) = at {
+        let row = line.trim_start_matches('\u{feff}').trim();
         if row.is_empty() {
-            continue;
-        }
-        let mut record = PhotonRecord::ABSENT;
-        let mut cells = 0;
-        for (text, place) in row.split(',').map(cell).zip(&places) {
-            cells += 1;
-            if let Some(place) = *place {
-                record.set(place, Value::Text(text)).ok_or_else(|| {
-                    let name = COLUMNS[place];
-                    let found = text.chars().take(40).collect::<String>();
-                    let message =
-                        format!("line {number}: expected a number for '{name}', found '{found}'");
-                    ListError::malformed(path, message)
-                })?;
+            empty += 1;
+            if empty > MOST_EMPTY_LINES {
+                let message = format!("line {number}: expected fewer empty lines");
+                return Err(ListError::malformed(path, message));
             }
+        } else {
+            on_record(record(row, &dialect, places).map_err(|message| {
+                ListError::malformed(path, format!("line {number}: {message}"))
+            })?)?;
         }
-        if cells < places.len() || row.split(',').nth(places.len()).is_some() {
-            let found = row.split(',').count();
-            let expected = places.len();
-            let message = format!("line {number}: expected {expected} values, found {found}");
-            return Err(ListError::malformed(path, message));
-        }
-        on_record(record)?;
+        at = next_line(&mut line)?;
     }
-    Ok(columns)
+    Ok(dialect.naming)
 }
 
-fn cell(text: &str) -> &str {
-    text.trim().trim_matches('"')
+/// Whether `line` could be the first of a list.
+pub(super) fn is_first_line(line: &str) -> bool {
+    Dialect::of(line).is_ok()
+}
+
+fn record(row: &str, dialect: &Dialect, places: &[Option<usize>]) -> Result<PhotonRecord, String> {
+    let mut record = PhotonRecord::ABSENT;
+    let mut cells = dialect.cells(row);
+    for (seen, place) in places.iter().enumerate() {
+        let text = cells
+            .next()
+            .ok_or_else(|| format!("expected {} values, found {seen}", places.len()))?;
+        if let Some(place) = *place {
+            record.set(place, Value::Text(text)).ok_or_else(|| {
+                let name = COLUMNS[place];
+                let found = text.chars().take(40).collect::<String>();
+                format!("expected a number for '{name}', found '{found}'")
+            })?;
+        }
+    }
+    match cells.count() {
+        0 => Ok(record),
+        more => Err(format!("expected {} values, found {}", places.len(), places.len() + more)),
+    }
 }

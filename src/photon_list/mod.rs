@@ -4,6 +4,7 @@
 //! SHA-256 of its rows ([`record::PhotonRecord::to_row`]), whatever the format it is written in.
 
 pub mod csv;
+mod dialect;
 pub mod error;
 pub mod in_order;
 pub mod ply;

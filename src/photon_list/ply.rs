@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use super::dialect::Naming;
 use super::error::ListError;
-use super::record::{Columns, PhotonRecord, Value};
+use super::record::{PhotonRecord, Value};
 
 /// The longest count a header has room for: that of 2^32 - 1 photons which all bounce 1000 times.
 const COUNT_DIGITS: usize = 13;
@@ -109,11 +110,11 @@ pub(super) fn read(
     mut input: impl BufRead,
     path: &Path,
     mut on_record: impl FnMut(PhotonRecord) -> Result<(), ListError>,
-) -> Result<Columns, ListError> {
+) -> Result<Naming, ListError> {
     let header = read_header(&mut input, path)?;
-    let names = header.properties.iter().map(|(_, name)| name.as_str());
-    let (columns, places) =
-        Columns::of(names).map_err(|message| ListError::malformed(path, message))?;
+    let names: Vec<_> = header.properties.iter().map(|(_, name)| name.as_str()).collect();
+    let naming = Naming::of(&names).map_err(|message| ListError::malformed(path, message))?;
+    let places = &naming.places;
     let mut row = vec![0; header.properties.iter().map(|(scalar, _)| scalar.bytes()).sum()];
     let mut line = String::new();
     for number in 0..header.count {
@@ -133,7 +134,7 @@ pub(super) fn read(
                 _ => ListError::unreadable(path, error),
             })?;
             let mut rest = row.as_slice();
-            for ((scalar, name), place) in header.properties.iter().zip(&places) {
+            for ((scalar, name), place) in header.properties.iter().zip(places) {
                 let (bytes, after) = rest.split_at(scalar.bytes());
                 rest = after;
                 if let Some(place) = *place {
@@ -145,7 +146,7 @@ pub(super) fn read(
                 return Err(truncated());
             }
             let mut words = line.split_whitespace();
-            for ((_, name), place) in header.properties.iter().zip(&places) {
+            for ((_, name), place) in header.properties.iter().zip(places) {
                 let word = words.next().ok_or_else(|| wrong(name))?;
                 if let Some(place) = *place {
                     record.set(place, Value::Text(word)).ok_or_else(|| wrong(name))?;
@@ -162,7 +163,7 @@ pub(super) fn read(
         );
         return Err(ListError::malformed(path, message));
     }
-    Ok(columns)
+    Ok(naming)
 }
 
 fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListError> {

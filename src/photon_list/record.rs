@@ -87,7 +87,7 @@ pub(super) enum Value<'a> {
 }
 
 impl Value<'_> {
-    fn float(self) -> Option<f32> {
+    pub(super) fn float(self) -> Option<f32> {
         match self {
             Self::Text(text) => text.parse().ok().or_else(|| {
                 // What C and C++ libraries print besides "nan".
@@ -140,30 +140,15 @@ impl Columns {
         self.intensity && self.to_light && self.photon && self.bounce && self.surface
     }
 
-    /// What a file whose columns are named `names` has: also, for each of its columns, its place in
-    /// [`COLUMNS`]. `Err` says what is missing or double.
-    pub(super) fn of<'a>(
-        names: impl Iterator<Item = &'a str>,
-    ) -> Result<(Self, Vec<Option<usize>>), String> {
-        let places: Vec<_> =
-            names.map(|name| COLUMNS.iter().position(|column| *column == name)).collect();
-        for (place, name) in COLUMNS.iter().enumerate() {
-            match places.iter().filter(|found| **found == Some(place)).count() {
-                0 if place < 3 => {
-                    return Err(format!("expected the columns x, y and z, found no '{name}'"));
-                }
-                0 | 1 => {}
-                _ => return Err(format!("expected each column once, found '{name}' twice")),
-            }
-        }
+    /// What a file has whose columns are at `places` of [`COLUMNS`].
+    pub(super) fn at(places: &[Option<usize>]) -> Self {
         let has = |place: usize| places.contains(&Some(place));
-        let columns = Self {
+        Self {
             intensity: has(3) && has(4) && has(5),
             to_light: has(6) && has(7) && has(8),
             photon: has(9),
             bounce: has(10),
             surface: has(11),
-        };
-        Ok((columns, places))
+        }
     }
 }

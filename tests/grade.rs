@@ -1,0 +1,319 @@
+//! `grade` on what students hand in: folders and pairs, other programs' lists, and files that are none.
+
+mod common;
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use photon_mapping::grading::class::grade_one;
+use photon_mapping::grading::intake::{HandedIn, collect};
+use photon_mapping::grading::submission::{Settings, Submission, unreadable};
+use photon_mapping::grading::verdict::Verdict;
+use photon_mapping::photon_list::reader::load_at_most;
+use serde_json::Value;
+use support::{fails, folder, json, run};
+
+const PHOTONS: u64 = 60_000;
+
+/// The positions that the reference stores, a line for each, as `line` writes it.
+fn lines(line: impl Fn([f32; 3]) -> String) -> String {
+    let list = common::list(&common::handout(7, PHOTONS));
+    list.iter().map(|record| line(record.position.to_array()) + "\n").collect()
+}
+
+fn csv() -> String {
+    "x,y,z\n".to_owned() + &lines(|[x, y, z]| format!("{x},{y},{z}"))
+}
+
+fn write(path: PathBuf, contents: impl AsRef<[u8]>) -> PathBuf {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, contents).unwrap();
+    path
+}
+
+/// The grades of `paths`, in JSON.
+fn grades(paths: &[PathBuf], options: &[&str]) -> Vec<Value> {
+    let paths = paths.iter().map(|path| path.as_os_str());
+    let options = options.iter().map(std::ffi::OsStr::new);
+    let command = [std::ffi::OsStr::new("grade"), "--format".as_ref(), "json".as_ref()];
+    let output = json(run(command.into_iter().chain(options).chain(paths)).success());
+    match output {
+        Value::Array(grades) => grades,
+        grade => vec![grade],
+    }
+}
+
+/// What the finding `check` of `grade` found.
+fn found<'a>(grade: &'a Value, check: &str) -> &'a str {
+    let findings = grade["findings"].as_array().unwrap();
+    let finding = findings.iter().find(|finding| finding["check"] == check);
+    finding.unwrap_or_else(|| panic!("no '{check}' in {grade:#}"))["found"].as_str().unwrap()
+}
+
+#[test]
+fn what_a_class_hands_in() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let list = csv();
+    let png = b"\x89PNG\r\n\x1a\n";
+    let mut paths = Vec::new();
+    paths.push(write(at("pair.csv"), &list));
+    paths.push(write(at("alone.csv"), &list));
+    paths.push(write(at("pair.png"), png));
+    write(at("nested/homework/dump.txt"), &list);
+    write(at("nested/homework/main.cpp"), "int main() {}\n");
+    write(at("nested/.DS_Store"), &list);
+    paths.push(at("nested"));
+    write(at("two/a.csv"), &list);
+    write(at("two/b.csv"), &list);
+    paths.push(at("two"));
+    write(at("usual/photons.csv"), &list);
+    write(at("usual/earlier.csv"), "x,y,z\n");
+    paths.push(at("usual"));
+    write(at("pictures/photons.csv"), &list);
+    write(at("pictures/1.png"), png);
+    write(at("pictures/2.png"), png);
+    paths.push(at("pictures"));
+    write(at("broken/photons.csv"), "x;why\n1;2\n");
+    paths.push(at("broken"));
+    fs::create_dir(at("empty")).unwrap();
+    paths.push(at("empty"));
+    paths.push(at("missing.csv"));
+    paths.push(at("alone.csv"));
+    let grades = grades(&paths, &["--emitted", "60000"]);
+    let expected = [
+        ("pair", "correct", None),
+        ("alone.csv", "correct", None),
+        ("nested", "correct", None),
+        ("two", "unreadable", Some(("readable", "2 photon lists in it (a.csv, b.csv)"))),
+        ("usual", "correct", None),
+        ("pictures", "correct", Some(("files", "2 pictures in it (1.png, 2.png)"))),
+        ("broken", "unreadable", Some(("readable", "line 1: expected the columns x, y and z"))),
+        ("empty", "unreadable", Some(("readable", "neither a photon list nor a picture"))),
+        ("missing.csv", "unreadable", Some(("readable", "cannot be read: No such file"))),
+        ("alone.csv (2)", "correct", None),
+    ];
+    assert_eq!(grades.len(), expected.len());
+    for (grade, (name, verdict, finding)) in grades.iter().zip(expected) {
+        assert_eq!(grade["submission"], at(name).display().to_string());
+        assert_eq!(grade["verdict"], verdict, "{grade:#}");
+        if let Some((check, part)) = finding {
+            assert!(found(grade, check).contains(part), "{name}: {}", found(grade, check));
+        }
+    }
+    let stored = load_at_most(&at("alone.csv"), 100_000).unwrap().0.records.len();
+    assert!(grades.iter().all(|grade| grade["stored"].is_null() || grade["stored"] == stored));
+}
+
+#[cfg(unix)]
+#[test]
+fn no_file_and_no_way_out() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    write(at("secret.csv"), csv());
+    fs::create_dir(at("link")).unwrap();
+    std::os::unix::fs::symlink(at("secret.csv"), at("link/photons.csv")).unwrap();
+    fs::create_dir(at("linked")).unwrap();
+    std::os::unix::fs::symlink(folder.path(), at("linked/more")).unwrap();
+    write(at("loop/photons.csv"), csv());
+    std::os::unix::fs::symlink(at("loop"), at("loop/again")).unwrap();
+    fs::create_dir(at("pipe")).unwrap();
+    for path in ["fifo", "pipe/photons.csv"] {
+        assert!(Command::new("mkfifo").arg(at(path)).status().unwrap().success());
+    }
+    let paths =
+        [at("link"), at("linked"), at("loop"), at("fifo"), at("pipe"), PathBuf::from("/dev/zero")];
+    let reasons = [
+        "the link photons.csv leads out of the folder",
+        "the link more leads out of the folder",
+        "",
+        "neither a file nor a folder",
+        "photons.csv is neither a file nor a folder",
+        "neither a file nor a folder",
+    ];
+    for (grade, reason) in grades(&paths, &[]).iter().zip(reasons) {
+        if reason.is_empty() {
+            assert_eq!(grade["verdict"], "correct", "{grade:#}");
+        } else {
+            assert_eq!(grade["verdict"], "unreadable", "{grade:#}");
+            assert!(found(grade, "readable").contains(reason), "{grade:#}");
+        }
+    }
+}
+
+#[test]
+fn other_programs_lists() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let with = |header: &str, line: fn([f32; 3]) -> String| header.to_owned() + &lines(line);
+    let comma: fn([f32; 3]) -> String = |[x, y, z]| format!("{x},{y},{z}");
+    let space: fn([f32; 3]) -> String = |[x, y, z]| format!("{x}  {y} {z}");
+    let cases = [
+        ("semicolons", with("x;y;z\n", |[x, y, z]| format!("{x};{y};{z}")), "semicolons"),
+        ("tabs", with("x\ty\tz\n", |[x, y, z]| format!("{x}\t{y}\t{z}")), "tabs"),
+        ("spaces", with("", space), "spaces between values; no names of columns"),
+        ("numpy", with("# x y z\n", space), "spaces"),
+        ("no-header", with("", comma), "the three are taken for x, y and z"),
+        ("capitals", with("X,Y,Z\n", comma), "'X' for x"),
+        ("struct", with("position.x,position.y,position.z\n", comma), "'position.y' for y"),
+        (
+            "index",
+            with("Photon.Position[0],pos_y,pz,z\n", |[x, y, z]| format!("{x},{y},0,{z}")),
+            "'pos_y' for y",
+        ),
+        ("y-up", with("x,y,z\n", |[x, y, z]| format!("{x},{z},{}", -y)), "model's axes"),
+        ("windows", with("\u{feff}x,y,z\r\n", |[x, y, z]| format!("{x},{y},{z}\r")), ""),
+        (
+            "ascii.ply",
+            with(
+                &format!(
+                    "ply\nformat ascii 1.0\nelement vertex {}\nproperty double X\n\
+            property double Y\nproperty double Z\nend_header\n",
+                    lines(comma).lines().count()
+                ),
+                space,
+            ),
+            "'Z' for z",
+        ),
+    ];
+    let paths: Vec<_> = cases.iter().map(|(name, text, _)| write(at(name), text)).collect();
+    let stored = lines(comma).lines().count();
+    for (grade, (name, _, remark)) in grades(&paths, &[]).iter().zip(&cases) {
+        assert_eq!(grade["verdict"], "correct", "{name}: {grade:#}");
+        assert_eq!(grade["score"], 4.0);
+        assert_eq!(grade["stored"], stored, "{name}");
+        let has_remark =
+            grade["findings"].as_array().unwrap().iter().any(|f| f["check"] == "format");
+        assert_eq!(has_remark, !remark.is_empty(), "{name}");
+        if has_remark {
+            assert!(found(grade, "format").contains(remark), "{name}: {}", found(grade, "format"));
+        }
+    }
+}
+
+#[test]
+fn hostile_files() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let ply = |rest: &str| format!("ply\nformat binary_little_endian 1.0\n{rest}");
+    let many = "property float x\nproperty float y\nproperty float z\nend_header\n12345678901";
+    let utf16: Vec<u8> =
+        "\u{feff}x,y,z\n1,2,3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let junk: Vec<u8> =
+        (0..100_000_u32).map(|k| (k.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    let repeated = |row: &str| format!("x,y,z\n{}", row.repeat(1000)).into_bytes();
+    let cases: Vec<(&str, Vec<u8>, &str)> = vec![
+        ("commas", vec![b','; 1 << 20], "at most 65536 bytes in a line"),
+        ("endless", vec![b'7'; 1 << 20], "at most 65536 bytes in a line"),
+        ("vertices", ply(&format!("element vertex {}\n{many}", 1_u64 << 60)).into(), "truncated"),
+        ("lists", ply("element vertex 9\nproperty list uint float x\n").into(), "plain properties"),
+        ("header", ply(&"comment\n".repeat(20_000)).into(), "header of under"),
+        ("blank", format!("x,y,z{}1,2,3", "\n".repeat(1_100_000)).into(), "fewer empty lines"),
+        ("nan", repeated("nan,nan,nan\n"), "no position in the list is a finite number"),
+        ("infinite", repeated("inf,-inf,1e400\n"), "no position in the list is a finite number"),
+        ("junk", junk, "line 1: expected text"),
+        ("utf16", utf16, "found UTF-16"),
+        ("numbers", b"1,2,3,4\n".to_vec(), "expected the names of the columns"),
+        (
+            "escape",
+            b"x,y,z\n1,\x1b[2J\x1b[31mcorrect,3\n".to_vec(),
+            "line 2: expected a number for 'y'",
+        ),
+    ];
+    let mut paths: Vec<_> = cases.iter().map(|(name, bytes, _)| write(at(name), bytes)).collect();
+    // A file of 10 GB that takes no room.
+    let huge = at("huge");
+    fs::File::create(&huge).unwrap().set_len(10_000_000_000).unwrap();
+    paths.push(huge);
+    let start = Instant::now();
+    let graded = grades(&paths, &["--emitted", "1000000"]);
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    let reasons =
+        cases.iter().map(|(_, _, reason)| *reason).chain(["at most 1024 MiB, found 9536"]);
+    for (grade, reason) in graded.iter().zip(reasons) {
+        assert_eq!((&grade["verdict"], &grade["score"]), (&"unreadable".into(), &0.0.into()));
+        let found = found(grade, "readable");
+        assert!(found.contains(reason), "{}: {found}", grade["submission"]);
+        assert!(!found.contains('\u{1b}'), "{found}");
+    }
+    // Far away is not unreadable.
+    let far = grades(&[write(at("far"), repeated("1e38,-1e38,3e38\n"))], &[]);
+    assert_eq!((&far[0]["verdict"], &far[0]["score"]), (&"incorrect".into(), &2.0.into()));
+    // An honest list without photons is none either.
+    let none = grades(&[write(at("none"), "x,y,z\n")], &[]);
+    assert_eq!((&none[0]["verdict"], &none[0]["score"]), (&"no-dots".into(), &1.0.into()));
+}
+
+#[test]
+fn reading_stops_at_the_cap() {
+    let folder = folder();
+    let path = write(folder.path().join("list"), "x,y,z\n".to_owned() + &"0,0,0\n".repeat(101));
+    assert_eq!(load_at_most(&path, 101).unwrap().0.records.len(), 101);
+    let error = load_at_most(&path, 100).unwrap_err().to_string();
+    assert!(error.contains("at most 100 records"), "{error}");
+    // What comes after is not even looked at.
+    let path =
+        write(folder.path().join("list"), "x,y,z\n".to_owned() + &"0,0,0\n".repeat(101) + "?");
+    assert!(load_at_most(&path, 100).unwrap_err().to_string().contains("at most 100 records"));
+}
+
+#[test]
+fn a_fault_of_the_grader_stops_nothing() {
+    let settings = Settings::default();
+    let named = |name: &str| HandedIn {
+        submission: Submission { name: name.into(), ..Submission::default() },
+        notes: vec!["left out".to_owned()],
+        ..HandedIn::default()
+    };
+    let graded: Vec<_> = ["a", "b"]
+        .map(|name| {
+            grade_one(&named(name), &settings, |submission| {
+                assert!(submission.name != "a", "the sky fell");
+                unreadable(submission, &settings, "fine")
+            })
+        })
+        .into();
+    assert_eq!(graded[0].grade.verdict, Verdict::Unreadable);
+    let [first, note] = graded[0].grade.findings.as_slice() else { panic!("two findings") };
+    assert!(first.found.contains("the grader itself failed"), "{}", first.found);
+    assert!(first.found.contains("the sky fell"), "{}", first.found);
+    assert!(!note.is_fault() && note.found == "left out");
+    assert_eq!(graded[1].grade.findings[0].found, "fine");
+}
+
+#[test]
+fn names_are_printable_and_unique() {
+    let folder = folder();
+    let path = write(folder.path().join("a\u{1b}[2Jb\n.csv"), "x,y,z\n");
+    let names = |paths: &[PathBuf]| -> Vec<String> {
+        collect(paths).into_iter().map(|handed_in| handed_in.submission.name).collect()
+    };
+    let names = names(&[path.clone(), path, Path::new("nowhere/").to_owned()]);
+    assert!(names[0].ends_with("a\u{fffd}[2Jb\u{fffd}.csv"), "{}", names[0]);
+    assert_eq!(names[1], format!("{} (2)", names[0]));
+    assert_eq!(names[2], "nowhere");
+}
+
+#[test]
+fn a_policy_sets_the_scores() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let list = write(at("far.csv"), "x,y,z\n".to_owned() + &"9,9,9\n".repeat(1000));
+    let policy = write(at("policy.json"), r#"{ "correct": 10, "incorrect": 2.5, "no-dots": 1 }"#);
+    let grade = &grades(std::slice::from_ref(&list), &["--policy", policy.to_str().unwrap()])[0];
+    assert_eq!(grade["score"], 2.5);
+    for (text, parts) in [
+        (r#"{ "corect": 4 }"#, &["policy.json", "corect", "plausible"][..]),
+        (r#"{ "misreadings": { "off": 1 } }"#, &["'off'", "no-offset", "cube-directions"]),
+        (r#"{ "correct": "4" }"#, &["policy.json", "expected f64"]),
+        ("", &["policy.json"]),
+    ] {
+        fs::write(&policy, text).unwrap();
+        fails("grade --policy {} {}", &[&policy, &list], parts);
+    }
+    fails("grade --policy {} {}", &[&at("none.json"), &list], &["none.json", "cannot be read"]);
+    fails("grade", &[], &["SUBMISSION"]);
+}
