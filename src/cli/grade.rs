@@ -11,6 +11,7 @@ use super::output::OutputFile;
 use super::values;
 use crate::assignment8;
 use crate::grading::judge_list::Expectations;
+use crate::grading::picture::reading::{kind, start_of};
 use crate::grading::places::Places;
 use crate::grading::policy::Policy;
 use crate::grading::signature::{Effort, Signatures};
@@ -101,7 +102,9 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
 
 fn submission(path: &PathBuf) -> Submission {
     let name = path.display().to_string();
-    Submission { name, list: Some(path.clone()), picture: None }
+    let is_picture = start_of(path).is_some_and(|start| kind(&start).is_some());
+    let [list, picture] = if is_picture { [None, Some(path)] } else { [Some(path), None] };
+    Submission { name, list: list.cloned(), picture: picture.cloned() }
 }
 
 /// What the submissions are held against.

@@ -5,6 +5,7 @@ pub mod hypotheses;
 pub mod judge_list;
 pub mod naming;
 pub mod observation;
+pub mod picture;
 pub mod places;
 pub mod policy;
 pub mod signature;
