@@ -5,7 +5,7 @@
 
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::grading::picture::expectations::PictureExpectations;
-use photon_mapping::grading::picture::trials::{Row, detect, false_alarms, ids};
+use photon_mapping::grading::picture::trials::{FalseAlarms, Row, detect, false_alarms, ids};
 use photon_mapping::grading::places::Places;
 
 /// As many photons as the framework sends out.
@@ -26,17 +26,24 @@ fn main() {
 
     if correct > 0 {
         println!(
-            "| correct, sent out | pictures | called incorrect | no dots | smallest p | p < 0.1 | p < 0.01 | p < 0.001 |"
+            "| correct, sent out | positions | pictures | called incorrect | no dots \
+             | smallest p | of all p | p < 0.1 | p < 0.01 | p < 0.001 |"
         );
-        println!("|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|");
     }
-    for (emitted, fewer) in SIZES.into_iter().filter(|_| correct > 0) {
-        let count = (correct / fewer).max(1);
-        let alarms = false_alarms(FIRST_SEED..FIRST_SEED + count, emitted, &expectations);
-        let [a, b, c] = alarms.below;
+    let kinds = SIZES.into_iter().flat_map(|size| [(size, false), (size, true)]);
+    for ((emitted, fewer), is_off) in kinds.filter(|_| correct > 0) {
+        // Of three pictures, one has positions that are off.
+        let count = (correct * if is_off { 1 } else { 2 } / 3 / fewer).max(1);
+        let seeds = FIRST_SEED..FIRST_SEED + count;
+        let alarms = false_alarms(seeds, emitted, is_off, &expectations);
+        eprintln!("{emitted}: the smallest p is that of seed {}", alarms.of_seed);
+        let FalseAlarms { pictures, incorrect, no_dots, smallest, below, .. } = alarms;
+        let [all, a, b, c] = below;
+        let positions = if is_off { "up to 4e-3 off" } else { "on the surface" };
         println!(
-            "| {emitted} | {} | {} | {} | {:.1e} | {a} | {b} | {c} |",
-            alarms.pictures, alarms.incorrect, alarms.no_dots, alarms.smallest
+            "| {emitted} | {positions} | {pictures} | {incorrect} | {no_dots} \
+             | {smallest:.1e} | {all} | {a} | {b} | {c} |"
         );
     }
     if seeds == 0 {

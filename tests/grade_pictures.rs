@@ -41,10 +41,6 @@ fn judge(red: &[bool], emitted: Option<u64>) -> PictureJudgement {
     judge_dots(red, &all.view, emitted.map(|emitted| emitted as f64), all)
 }
 
-fn is_incorrect(judgement: &PictureJudgement) -> bool {
-    judgement.has_dots && judgement.findings.iter().any(|finding| finding.is_fault())
-}
-
 fn named(judgement: &PictureJudgement) -> Option<&'static str> {
     judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
@@ -82,7 +78,7 @@ fn pictures_of_fair_readings_are_correct() {
             let judgement = judge(&red, emitted);
             let p_value = judgement.p_value.expect("it was tested");
             assert!(
-                !is_incorrect(&judgement) && p_value > 1e-4,
+                !judgement.is_incorrect() && p_value > 1e-4,
                 "{}: {judgement:?}",
                 reading.title
             );
@@ -142,12 +138,12 @@ fn misreadings_are_incorrect_and_named() {
         let hypothesis = misread(id, 3).expect("it is known");
         let red = simulate(hypothesis.variation, 33, MILLION, 0.0);
         let judgement = judge(&red, Some(MILLION));
-        assert!(is_incorrect(&judgement), "{id}: {judgement:?}");
+        assert!(judgement.is_incorrect(), "{id}: {judgement:?}");
         assert_eq!(named(&judgement), Some(id), "{judgement:?}");
     }
     let hypothesis = misread("no-absolute-value", 0).expect("it is known");
     let judgement = judge(&simulate(hypothesis.variation, 34, MILLION, 0.0), None);
-    assert!(is_incorrect(&judgement), "{judgement:?}");
+    assert!(judgement.is_incorrect(), "{judgement:?}");
     assert_eq!(named(&judgement), Some("no-absolute-value"), "{judgement:?}");
 }
 
@@ -158,7 +154,7 @@ fn another_mistake_is_incorrect_and_is_not_named() {
     red.iter_mut().enumerate().filter(|(pixel, _)| pixel % 640 < 320).for_each(|(_, r)| *r = false);
     for emitted in [Some(MILLION), None] {
         let judgement = judge(&red, emitted);
-        assert!(is_incorrect(&judgement), "{judgement:?}");
+        assert!(judgement.is_incorrect(), "{judgement:?}");
         assert_eq!(named(&judgement), None, "{judgement:?}");
     }
 }
@@ -167,21 +163,29 @@ fn another_mistake_is_incorrect_and_is_not_named() {
 fn a_picture_that_is_red_all_over_is_the_nan_of_the_frame() {
     let red: Vec<bool> = (0..PIXELS).map(|at| expectations().view.shows_surface(at)).collect();
     let judgement = judge(&red, None);
-    assert!(is_incorrect(&judgement));
+    assert!(judgement.is_incorrect());
     assert_eq!(named(&judgement), Some("nan-frame"));
     // With four billion photons a right picture is red all over, too.
     let judgement = judge(&red, Some(4_000_000_000));
-    assert!(!is_incorrect(&judgement), "{judgement:?}");
+    assert!(!judgement.is_incorrect(), "{judgement:?}");
 }
 
 #[test]
 fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
-    for (standoff, has_dots) in [(1.0e-3, true), (2.6e-3, true), (3.3e-3, true), (5.0e-3, false)] {
-        let red = simulate(Variation::default(), 36, MILLION, standoff);
+    let fair = fair_readings();
+    let of_literal = |standoff| (fair[1].variation, standoff, true);
+    for (variation, standoff, has_dots) in [
+        (fair[0].variation, 1.0e-3, true),
+        (fair[0].variation, 2.6e-3, true),
+        of_literal(2.45e-3),
+        (fair[0].variation, 3.3e-3, true),
+        (fair[0].variation, 5.0e-3, false),
+    ] {
+        let red = simulate(variation, 36, MILLION, standoff);
         for emitted in [Some(MILLION), None] {
             let judgement = judge(&red, emitted);
             assert_eq!(judgement.has_dots, has_dots, "{standoff}: {judgement:?}");
-            assert!(!is_incorrect(&judgement), "{standoff}: {judgement:?}");
+            assert!(!judgement.is_incorrect(), "{standoff}: {judgement:?}");
         }
     }
 }
@@ -244,7 +248,7 @@ fn a_camera_half_a_pixel_off_is_remarked() {
     assert!(dots.is_shifted && dots.red == red);
     assert_eq!(dots.remarks[0].check, "camera");
     let judgement = judge_dots(&dots.red, view, Some(MILLION as f64), all);
-    assert!(!is_incorrect(&judgement), "{judgement:?}");
+    assert!(!judgement.is_incorrect(), "{judgement:?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::view::View;
 use crate::grading::places::Places;
 use crate::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
-/// By how much coverage may differ from that of the closest of [`STANDOFFS`].
+/// By how much coverage may differ from what it is thought to be.
 pub const LEEWAY: f64 = 0.02;
 /// How far off their plane positions may be before coverage changes, up to where nothing is left, in
 /// world units, in steps between which it changes by three hundredths.

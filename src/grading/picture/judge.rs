@@ -12,6 +12,7 @@ use crate::grading::statistics::{
     Fit, Law, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
 };
 use crate::grading::verdict::{Finding, Weight};
+use crate::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
 use super::signature::PictureSignature;
 
@@ -23,6 +24,12 @@ const LEEWAY_OF_MISREADING: f64 = 0.02;
 const LEEWAY_OF_SELF_HITS: f64 = 0.25;
 /// Numbers of pixels must be so many deviations from none and from all to be as good as normal.
 const LEAST_DEVIATIONS: f64 = 6.0;
+/// Another way to do it right is tried for what is as rare as this.
+const RARE: f64 = 0.01;
+/// With fewer groups of cells than this, anything fits that has this many numbers to choose.
+const FEWEST_GROUPS: usize = 4;
+/// But so few red pixels have no more groups.
+const SHORT: f64 = 200.0;
 /// A few odd pixels are no dots.
 const FEWEST_RED: f64 = 10.0;
 /// When no more than this part of the pixels is left, all are red.
@@ -31,7 +38,7 @@ const ALL_RED: f64 = 1e-3;
 /// told.
 const SATURATED: f64 = 0.05;
 /// The numbers of photons between which it is sought: with fewer or more no picture can be judged.
-const SIZES: [f64; 2] = [10.0, 1e11];
+const SIZES: [f64; 2] = [10.0, 1e8];
 
 /// What the dots of a picture say.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +53,13 @@ pub struct PictureJudgement {
     pub emitted: Option<f64>,
     /// The smallest p-value, corrected for the number of tests, where there were any.
     pub p_value: Option<f64>,
+}
+
+impl PictureJudgement {
+    /// Whether there are dots, but not those of the handout.
+    pub fn is_incorrect(&self) -> bool {
+        self.has_dots && self.findings.iter().any(Finding::is_fault)
+    }
 }
 
 /// One number's test.
@@ -123,10 +137,12 @@ pub fn judge_dots(
 
 fn judge_pattern(case: Case) -> PictureJudgement {
     let mut trial = case.best_trial();
-    let is_off = trial.p_value < SIGNIFICANCE && case.may_be_off_surface(&trial);
+    let is_off = trial.p_value < RARE && case.may_be_off_surface(&trial);
     let is_sparse = case.emitted.is_none() && trial.emitted < LEAST_EMITTED;
     if let Some(off) = (is_off || is_sparse).then(|| case.best_trial_off_surface()).flatten() {
-        trial = off;
+        if is_sparse || off.p_value > trial.p_value {
+            trial = off;
+        }
     }
     let explanation = (trial.p_value < SIGNIFICANCE).then(|| case.name(&trial)).flatten();
     let reading = &case.expectations.fair[trial.reading];
@@ -161,7 +177,7 @@ impl Case<'_> {
         let mut best = self.attempt(0, None);
         for reading in 1..self.expectations.fair.len() {
             // The first, which is the reference's, unless another one is clearly better.
-            if best.p_value >= 0.01 {
+            if best.p_value >= RARE {
                 return best;
             }
             best = better(best, self.attempt(reading, None));
@@ -172,30 +188,59 @@ impl Case<'_> {
     /// As [`Self::best_trial`], of positions that are off their surfaces, and of enough photons.
     fn best_trial_off_surface(&self) -> Option<Trial> {
         let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= LEAST_EMITTED;
-        let standoffs = STANDOFFS.into_iter().map(|standoff| self.attempt(0, Some(standoff)));
-        let off = standoffs.filter(is_enough).max_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
-        let standoff = off.standoff;
-        let off = (1..self.expectations.fair.len()).fold(off, |off, reading| {
-            if off.p_value >= 0.01 { off } else { better(off, self.attempt(reading, standoff)) }
+        let attempts = (0..self.expectations.fair.len()).flat_map(|reading| {
+            let standoffs = self.standoffs(reading);
+            standoffs.into_iter().map(move |standoff| self.attempt(reading, Some(standoff)))
         });
+        let is_short = self.counts.iter().sum::<f64>() < SHORT;
+        let can_fail = |trial: &Trial| is_short || trial.groups.1 >= FEWEST_GROUPS;
+        let off = attempts.filter(is_enough).filter(can_fail).reduce(better)?;
         (off.p_value >= SIGNIFICANCE).then_some(off)
     }
 
-    /// Whether facets that are askew to all axes have fewer dots than others, beside what `trial` leads
-    /// to expect: the first to vanish where positions are off.
+    /// The numbers of red pixels on facets that are askew to all axes, and on others.
+    fn askew_and_straight(&self, of_cells: &[f64]) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (cell, count) in of_cells.iter().enumerate() {
+            let is_askew = self.expectations.is_askew[self.view.facet_of_cell(cell)];
+            sums[usize::from(!is_askew)] += count;
+        }
+        sums
+    }
+
+    /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to expect:
+    /// they are the first to lose some where positions are off.
     fn may_be_off_surface(&self, trial: &Trial) -> bool {
         let signature = &self.expectations.signatures.fair[trial.reading];
         let at_rest = vec![1.0; self.view.facets.len()];
         let means = means(self.view, signature, trial.emitted, &at_rest);
-        let (mut askew, mut straight) = ([0.0; 2], [0.0; 2]);
-        for (cell, mean) in means.iter().enumerate() {
-            let facet = self.view.facet_of_cell(cell);
-            let is_askew = self.expectations.is_askew[facet];
-            let sums = if is_askew { &mut askew } else { &mut straight };
-            sums[0] += self.counts[cell];
-            sums[1] += mean;
-        }
-        askew[0] * straight[1] < straight[0] * askew[1] || straight[0] < 0.01 * straight[1]
+        let [askew, straight] = self.askew_and_straight(self.counts);
+        let [askew_mean, straight_mean] = self.askew_and_straight(&means);
+        askew * straight_mean < straight * askew_mean || straight < 0.01 * straight_mean
+    }
+
+    /// How far off positions may be: as far as leaves the dots that there are on the askew facets, for as
+    /// many photons as the others show. Where these show none, nothing but the number itself tells.
+    fn standoffs(&self, reading: usize) -> Vec<f64> {
+        let signature = &self.expectations.signatures.fair[reading];
+        let expect = |size: f64, standoff: f64| {
+            let coverage = coverage(self.view, &self.expectations.places, standoff);
+            self.askew_and_straight(&means(self.view, signature, size, &coverage))
+        };
+        let [askew, straight] = self.askew_and_straight(self.counts);
+        let radius = f64::from(PHOTON_DOT_RADIUS);
+        let [first, last] = [STANDOFFS[0], STANDOFFS[STANDOFFS.len() - 1]];
+        let is_bare = straight < FEWEST_RED;
+        let size = match self.emitted {
+            Some(emitted) => emitted,
+            None if is_bare => {
+                let bare = STANDOFFS.into_iter().filter(|standoff| *standoff > radius);
+                return bare.step_by(3).collect();
+            }
+            None => bisect(SIZES, |size| expect(size, 0.0)[1] < straight),
+        };
+        let range = if is_bare { [radius * 1.0001, last] } else { [first, radius] };
+        vec![bisect(range, |standoff| expect(size, standoff)[0] > askew)]
     }
 
     fn attempt(&self, reading: usize, standoff: Option<f64>) -> Trial {
@@ -303,16 +348,8 @@ impl Case<'_> {
     /// The number of photons that fits best.
     fn fit_size(&self, signature: &PictureSignature, coverage: &[f64]) -> f64 {
         let found: f64 = self.counts.iter().sum();
-        let [mut low, mut high] = SIZES;
-        for _ in 0..40 {
-            let middle = (low * high).sqrt();
-            if total(self.view, signature, middle, coverage) < found {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let mut size = low;
+        let too_few = |size| total(self.view, signature, size, coverage) < found;
+        let mut size = bisect(SIZES, too_few);
         for _ in 0..3 {
             let expected = Expected::new(self.view, signature, size, coverage);
             let law = expected.law(LEEWAY);
@@ -363,6 +400,19 @@ impl Case<'_> {
             .map(|(hypothesis, signature)| explain(hypothesis, signature));
         most_likely(candidates.collect())
     }
+}
+
+/// Where between the positive ends of `range` `is_low` ceases to hold, in proportion.
+fn bisect([mut low, mut high]: [f64; 2], is_low: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..40 {
+        let middle = (low * high).sqrt();
+        if is_low(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
 }
 
 fn better(best: Trial, trial: Trial) -> Trial {
