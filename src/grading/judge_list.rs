@@ -1,10 +1,12 @@
 //! The checks of a photon list.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
 use super::naming::{Explanation, Known, can_show, name};
 use super::observation::{Observation, ToLight};
+use super::picture::expectations::PictureExpectations;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
 use super::statistics::{Law, corrected, fit, grouped, normal_tails, towards};
@@ -53,12 +55,21 @@ pub struct Expectations {
     pub signatures: Signatures,
     fair: Vec<Hypothesis>,
     misreadings: Vec<Hypothesis>,
+    /// What pictures are held against: most classes hand in none.
+    pictures: OnceLock<PictureExpectations>,
 }
 
 impl Expectations {
     /// For photons that may bounce as often as `signatures` says.
     pub fn new(places: Places, signatures: Signatures) -> Self {
-        Self { places, signatures, fair: fair_readings(), misreadings: misreadings() }
+        let (fair, misreadings) = (fair_readings(), misreadings());
+        Self { places, signatures, fair, misreadings, pictures: OnceLock::new() }
+    }
+
+    /// What pictures are held against.
+    pub fn pictures(&self) -> &PictureExpectations {
+        let new = || PictureExpectations::new(&self.places, self.signatures.max_bounces);
+        self.pictures.get_or_init(new)
     }
 }
 

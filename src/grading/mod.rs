@@ -27,6 +27,7 @@ pub mod judge_list;
 pub mod naming;
 pub mod observation;
 pub mod page;
+pub mod picture;
 pub mod places;
 pub mod policy;
 pub mod signature;

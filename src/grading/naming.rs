@@ -133,7 +133,8 @@ fn explain_by_self_hits(
     explains.then_some(of_distinct)
 }
 
-fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
+/// The likeliest of `candidates`, if it explains what is seen, and no other does as well.
+pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
     candidates.sort_by(|a, b| b.fit.log_likelihood.total_cmp(&a.fit.log_likelihood));
     let best = candidates.first()?.clone();
     if best.fit.p_value < LEAST_LIKELY {

@@ -1,11 +1,12 @@
 //! One student's submission, and its grade.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::axes;
 use super::exact::exact_comparison;
 use super::judge_list::{Expectations, Judgement, judge};
 use super::observation::observe;
+use super::picture::judge_picture;
 use super::policy::Policy;
 use super::text::printable;
 use super::verdict::{Finding, Grade, Verdict, Weight};
@@ -51,9 +52,12 @@ pub struct Graded {
 /// Grades `submission`. Whatever is wrong with its files is part of the grade.
 pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expectations) -> Graded {
     let Some(path) = &submission.list else {
-        return unreadable(submission, settings, "there is no photon list");
+        return match &submission.picture {
+            Some(picture) => grade_picture(submission, picture, settings, expectations),
+            None => unreadable(submission, settings, "there is no photon list, and no picture"),
+        };
     };
-    match reader::load_at_most(path, MOST_RECORDS) {
+    let mut graded = match reader::load_at_most(path, MOST_RECORDS) {
         Ok((mut list, guessed)) => {
             let is_turned = axes::turn_to_world(&mut list, &expectations.places);
             let mut graded = grade_list(submission, list, settings, expectations);
@@ -72,7 +76,53 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         Err(ListError::Unreadable { source, .. }) => {
             unreadable(submission, settings, &format!("it cannot be read: {source}"))
         }
+    };
+    if let Some(picture) = &submission.picture {
+        let emitted = settings.emitted.map(|emitted| emitted as f64);
+        let findings = match judge_picture(picture, emitted, expectations.pictures()) {
+            Ok(judgement) => judgement.findings,
+            Err(reason) => vec![not_readable(&reason)],
+        };
+        // The list says the same more exactly, so it alone decides.
+        let remarks =
+            findings.into_iter().map(|finding| Finding { weight: Weight::Remark, ..finding });
+        graded.grade.findings.extend(remarks);
     }
+    graded
+}
+
+fn grade_picture(
+    submission: &Submission,
+    picture: &Path,
+    settings: &Settings,
+    expectations: &Expectations,
+) -> Graded {
+    let emitted = settings.emitted.map(|emitted| emitted as f64);
+    let judgement = match judge_picture(picture, emitted, expectations.pictures()) {
+        Ok(judgement) => judgement,
+        Err(reason) => return unreadable(submission, settings, &reason),
+    };
+    let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
+    let verdict = match faults().next() {
+        None => Verdict::Correct,
+        Some(_) if judgement.has_dots => Verdict::Incorrect,
+        Some(_) => Verdict::NoDots,
+    };
+    let misreading = judgement.explanation.as_ref();
+    let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
+    let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
+        && misreading_id != Some("direct-stored");
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: None,
+        score: settings.policy.score(verdict, misreading_id, is_plausible),
+        verdict,
+        misreading: misreading_id,
+        misreading_confidence: misreading.map(|explanation| explanation.confidence),
+        findings: judgement.findings.clone(),
+    };
+    Graded { grade, list: None }
 }
 
 /// A finding that costs nothing.
@@ -91,7 +141,21 @@ pub fn remark(check: &'static str, expected: &str, found: &str, advice: &'static
 
 /// The grade of a submission that is none, for `reason`.
 pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) -> Graded {
-    let finding = Finding {
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: None,
+        score: settings.policy.score(Verdict::Unreadable, None, false),
+        verdict: Verdict::Unreadable,
+        misreading: None,
+        misreading_confidence: None,
+        findings: vec![not_readable(reason)],
+    };
+    Graded { grade, list: None }
+}
+
+fn not_readable(reason: &str) -> Finding {
+    Finding {
         check: "readable",
         section: None,
         expected: "a photon list (CSV or PLY, with the columns x, y and z), or a picture"
@@ -104,18 +168,7 @@ pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) ->
             "Hand in the list that the dump header writes, or the PNG picture as the program wrote \
                  it."
             .into(),
-    };
-    let grade = Grade {
-        submission: submission.name.clone(),
-        emitted: settings.emitted,
-        stored: None,
-        score: settings.policy.score(Verdict::Unreadable, None, false),
-        verdict: Verdict::Unreadable,
-        misreading: None,
-        misreading_confidence: None,
-        findings: vec![finding],
-    };
-    Graded { grade, list: None }
+    }
 }
 
 fn grade_list(

@@ -49,4 +49,15 @@ impl PerspectiveCamera {
         let direction = self.forward + across * self.right + upwards * self.up;
         Ray::new(self.position, direction.normalize())
     }
+
+    /// Where `point`, in the space of the camera, appears in the picture: the coordinates of
+    /// [`Self::generate_ray_for_normalized_coordinates`]; nothing for a point that is not before the
+    /// camera.
+    pub fn project(&self, point: Vec3) -> Option<[f32; 2]> {
+        let from = point - self.position;
+        let depth = from.dot(self.forward);
+        let across = from.dot(self.right) / (depth * self.half_width);
+        let upwards = from.dot(self.up) / (depth * self.half_height);
+        (depth > 0.0).then(|| [(across + 1.0) / 2.0, (1.0 - upwards) / 2.0])
+    }
 }

@@ -1,0 +1,35 @@
+//! The checks of a picture: are its dots where photons lie?
+
+pub mod coverage;
+pub mod dots;
+pub mod expectations;
+pub mod expected;
+pub mod judge;
+pub mod reading;
+pub mod signature;
+pub mod trials;
+pub mod view;
+mod words;
+
+use std::path::Path;
+
+use dots::find_dots;
+use expectations::PictureExpectations;
+use judge::{PictureJudgement, judge_dots};
+
+/// Judges the picture `path`, for which `emitted` photons were sent out, if that is known.
+///
+/// # Errors
+/// The reason, in words, if its dots cannot be told.
+pub fn judge_picture(
+    path: &Path,
+    emitted: Option<f64>,
+    expectations: &PictureExpectations,
+) -> Result<PictureJudgement, String> {
+    let picture = reading::read_picture(path)?;
+    let dots = find_dots(&picture, &expectations.view, || expectations.shifted())?;
+    let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
+    let mut judgement = judge_dots(&dots.red, view, emitted, expectations);
+    judgement.findings.extend(dots.remarks);
+    Ok(judgement)
+}
