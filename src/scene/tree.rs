@@ -22,7 +22,7 @@ use super::triangle::{ShearedRay, Triangle, meet};
 
 /// Scenes with at most this many triangles have no tree, so that what a student steps through stays
 /// plain. A tree would be faster for one ray even at 24 triangles (`benches/speed.rs`), but such scenes are
-/// traced in lanes: see [`crate::lanes::MOST_TRIANGLES`].
+/// traced side by side by those who need speed.
 pub const FEW: usize = 64;
 
 const WIDTH: usize = 8;
