@@ -10,7 +10,12 @@ use photon_mapping::grading::places::Places;
 use photon_mapping::grading::signature::Effort;
 
 /// With these, a signature is known better than the leeway that a density has.
-const EFFORT: Effort = Effort { main: 60_000_000, fair: 12_000_000, misreading: 4_000_000 };
+const EFFORT: Effort = Effort {
+    main: 60_000_000,
+    fair: 12_000_000,
+    misreading: 4_000_000,
+    slow_misreading: 4_000_000,
+};
 
 fn main() {
     let places = Places::new(&create_scene());

@@ -63,7 +63,12 @@ pub fn chance(p_value: f64) -> String {
     }
 }
 
-/// What one check found.
+/// What one check found, and what to do about it.
+pub fn finding(finding: &Finding) -> String {
+    let advice = if finding.passed { String::new() } else { advice(finding) };
+    line(finding) + &advice
+}
+
 fn line(finding: &Finding) -> String {
     let mark = match (finding.passed, finding.weight) {
         (true, _) => "ok    ",

@@ -139,7 +139,12 @@ impl Expected {
             // A pixel or two more is left to rounding.
             covariance[at][at] += (leeway * slope).powi(2) + 1.0;
         }
-        Law { mean: self.mean.clone(), covariance, measured_with: f64::INFINITY, leeway: 0.0 }
+        Law {
+            leeway: vec![0.0; self.mean.len()],
+            mean: self.mean.clone(),
+            covariance,
+            measured_with: f64::INFINITY,
+        }
     }
 
     /// Groups of cells whose numbers of red pixels, and of others, are large enough beside their

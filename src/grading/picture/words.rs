@@ -2,7 +2,7 @@
 
 use super::expected::Expected;
 use super::judge::Test;
-use crate::compare::verdict::Section;
+use crate::compare::section::Section;
 use crate::grading::hypotheses::Hypothesis;
 use crate::grading::judge_list::SIGNIFICANCE;
 use crate::grading::naming::Explanation;
