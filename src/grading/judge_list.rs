@@ -1,11 +1,11 @@
-//! The checks of a photon list.
+//! The judgement of a photon list.
 
-use std::borrow::Cow;
-use std::sync::OnceLock;
 
+use super::bounces::bounce_findings;
+use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
 use super::naming::{Explanation, Known, can_show, name};
-use super::observation::{Observation, ToLight};
+use super::observation::Observation;
 use super::picture::expectations::PictureExpectations;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
@@ -18,18 +18,11 @@ use crate::compare::section::Section;
 pub const SIGNIFICANCE: f64 = 1e-5;
 /// By which part of itself an expectation may be off for reasons that a course cannot fault: where
 /// exactly a ray starts, and how far off the surface a position is stored.
-const LEEWAY: f64 = 0.012;
+pub(super) const LEEWAY: f64 = 0.012;
 /// The same for cells, of which a larger part lies along an edge.
 const LEEWAY_OF_CELLS: f64 = 0.025;
 /// Cells are joined until so many photons are expected in each: below, counts are too far from normal.
 const LEAST_EXPECTED: f64 = 25.0;
-/// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
-const MOST_REPEATED: f64 = 0.01;
-/// A stray photon or two is left to rounding.
-const MOST_ASTRAY: f64 = 5e-4;
-/// A list of photons without a count is too short for what the handout asks for when it fits fewer
-/// photons sent out than this.
-const LEAST_EMITTED: f64 = 5000.0;
 
 /// What the photons of a list say.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,70 +143,6 @@ pub fn judge(
     findings.extend(of_bounces);
     findings.extend(remarks(observation));
     Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
-}
-
-/// What can be said without statistics.
-fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
-    let counts = &observation.counts;
-    let records = observation.records as f64;
-    let finite = records - counts.not_finite;
-    let transformation = Some(Section::HemisphereRayTransformation.title());
-    let storage = Some(Section::PhotonStorage.title());
-    let fact =
-        |check, section, expected: &str, found, passed, weight, advice: &'static str| Finding {
-            check,
-            section,
-            expected: expected.to_owned(),
-            found,
-            p_value: None,
-            passed,
-            weight,
-            advice: if passed { Cow::Borrowed("") } else { advice.into() },
-        };
-    let of_all = |count: f64, all: f64| format!("{count:.0} of {all:.0}");
-    let (repeated, on_facets) = (observation.repeated, counts.on_surfaces());
-    let surfaces = places.surfaces.len();
-    vec![
-        fact(
-            "finite",
-            transformation,
-            "every position is finite",
-            format!("{} are not", of_all(counts.not_finite, records)),
-            counts.not_finite == 0.0,
-            Weight::Grave,
-            "Look for a vector of length 0 that is normalised: t where the normal is (-1, 0, 0).",
-        ),
-        fact(
-            "on surfaces",
-            storage,
-            &format!("every photon lies on one of the {surfaces} surfaces, up to 0.007 off"),
-            format!("{} lie elsewhere", of_all(counts.off_surface, finite)),
-            counts.off_surface <= (MOST_ASTRAY * finite).max(1.0),
-            Weight::Grave,
-            "The position is state.intersectionRay.GetRayPosition(state.intersectionT), in world \
-             space.",
-        ),
-        fact(
-            "footprints",
-            transformation,
-            "no photon lies on the floor beneath a box",
-            format!("{} do", of_all(counts.footprint, finite)),
-            counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
-            Weight::Fault,
-            "A photon got into a box: directions must be in the hemisphere over the normal, and the \
-             scattered ray must start above the surface.",
-        ),
-        fact(
-            "same place",
-            transformation,
-            "hardly any two photons lie at the same place",
-            format!("{} lie where another one does", of_all(repeated, on_facets)),
-            repeated <= (MOST_REPEATED * on_facets).max(2.0),
-            Weight::Fault,
-            "Scattered rays hit the triangle they leave: start them a little above the surface, or \
-             check that no photon is inserted twice.",
-        ),
-    ]
 }
 
 /// The fair reading under which `observation` is least strange. Where it is strange under all of them, what
@@ -338,7 +267,7 @@ fn without_last(law: &Law, counts: &[f64]) -> (Law, Vec<f64>) {
 }
 
 /// Groups in which at least [`LEAST_EXPECTED`] photons are expected: what has fewer is joined.
-fn joined(mean: &[f64], emitted: f64) -> (Vec<usize>, usize) {
+pub(super) fn joined(mean: &[f64], emitted: f64) -> (Vec<usize>, usize) {
     let mut groups = Vec::new();
     let mut count = 0;
     let mut small = None;
@@ -409,168 +338,4 @@ fn finding_of(
             _ => "".into(),
         },
     }
-}
-
-/// Whether the list is long enough to be what the handout asks for.
-fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> Finding {
-    let passed = emitted.is_some() || fitted >= LEAST_EMITTED;
-    Finding {
-        check: "enough photons",
-        section: Some(Section::PhotonStorage.title()),
-        expected: format!("the photons of at least {LEAST_EMITTED} sent out"),
-        found: format!("{} photons, of about {fitted:.0} sent out", observation.records),
-        p_value: None,
-        passed,
-        weight: Weight::Fault,
-        advice: if passed {
-            "".into()
-        } else {
-            "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it \
-             sent out fewer, grade with --emitted."
-                .into()
-        },
-    }
-}
-
-fn bounce_findings(
-    observation: &Observation,
-    emitted: Option<f64>,
-    signature: &Signature,
-    expectations: &Expectations,
-) -> Vec<Finding> {
-    let (Some(by_bounce), Some([first, last])) = (&observation.by_bounce, observation.bounces)
-    else {
-        return Vec::new();
-    };
-    let places = &expectations.places;
-    let max_bounces = expectations.signatures.max_bounces;
-    let allowed = usize::try_from(max_bounces).unwrap_or(0);
-    let size = emitted.unwrap_or_else(|| {
-        observation.counts.on_surfaces() / signature.classes.iter().sum::<f64>()
-    });
-    let mut findings = Vec::new();
-    let expected_at = |bounce: usize| size * signature.by_bounce[bounce].iter().sum::<f64>();
-    if (1..=by_bounce.len()).contains(&allowed) {
-        // As many bounces must occur as are allowed.
-        let expected = expected_at(allowed - 1);
-        let seen = usize::from(last - first) + 1;
-        let p_value = if seen < allowed { (-expected).exp() } else { 1.0 };
-        let passed = p_value >= SIGNIFICANCE;
-        findings.push(Finding {
-            check: "last bounce",
-            section: Some(Section::PhotonStorage.title()),
-            expected: format!(
-                "photons after {allowed} bounces, which are allowed: about {expected:.0}"
-            ),
-            found: format!("photons after up to {seen} bounces"),
-            p_value: Some(p_value),
-            passed,
-            weight: Weight::Fault,
-            advice: if passed {
-                "".into()
-            } else {
-                "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.".into()
-            },
-        });
-    }
-    let mut smallest = 1.0_f64;
-    let mut tests = 0;
-    for (bounce, counts) in by_bounce.iter().enumerate().take(allowed) {
-        let counts = classes(counts, places);
-        let law = signature.law_of_bounce(bounce, LEEWAY);
-        let (groups, count) = joined(&law.mean, size);
-        if count < 2 {
-            continue;
-        }
-        let fit = fit(&grouped(&counts, &groups, count), &law.grouped(&groups, count), emitted);
-        smallest = smallest.min(fit.p_value);
-        tests += 1;
-    }
-    let p_value = corrected(smallest, tests.max(1));
-    let passed = p_value >= SIGNIFICANCE;
-    findings.push(Finding {
-        check: "bounces",
-        section: Some(Section::PhotonStorage.title()),
-        expected: "on every facet as many photons of every bounce as the scene leaves there"
-            .to_owned(),
-        found: if passed { "so it is" } else { "other numbers" }.to_owned(),
-        p_value: Some(p_value),
-        passed,
-        // Positions alone are asked for; a column that counts otherwise is no fault.
-        weight: Weight::Remark,
-        advice: if passed { "" } else { "Check how your list counts bounces." }.into(),
-    });
-    findings
-}
-
-/// What costs nothing, since the handout says that positions are sufficient.
-fn remarks(observation: &Observation) -> Vec<Finding> {
-    let remark = |check, expected: &str, found: String, passed, advice: &'static str| Finding {
-        check,
-        section: Some(Section::PhotonStorage.title()),
-        expected: expected.to_owned(),
-        found,
-        p_value: None,
-        passed,
-        weight: Weight::Remark,
-        advice: if passed { "".into() } else { advice.into() },
-    };
-    let mut findings = Vec::new();
-    if observation.has_odd_intensity {
-        findings.push(remark(
-            "intensity",
-            "one intensity for all: the light's colour divided by the photons sent out",
-            "intensities that differ, or say nothing".to_owned(),
-            false,
-            "Set 'intensity' to lightIntensity as it is.",
-        ));
-    }
-    let Some(to_light) = observation.to_light else {
-        return findings;
-    };
-    let ToLight { set, not_unit, from_behind, to_the_light, all_alike } = to_light;
-    let records = observation.records;
-    let is_set = set == records && !all_alike;
-    findings.push(remark(
-        "to_light set",
-        "a direction for every photon",
-        if all_alike { "all the same".to_owned() } else { format!("{set} of {records} have one") },
-        is_set,
-        "Set 'toLightRay' to a ray in the opposite direction of the photon ray.",
-    ));
-    if !is_set {
-        return findings;
-    }
-    let most = |count: u64| count as f64 > 0.5 * set as f64;
-    let few = |count: u64| count as f64 <= 0.01 * set as f64;
-    findings.push(remark(
-        "to_light length",
-        "directions of length 1",
-        format!("{not_unit} of {set} are not"),
-        few(not_unit),
-        "Normalise the direction.",
-    ));
-    findings.push(remark(
-        "to_light direction",
-        "directions to where the photon came from, in front of the surface",
-        format!("{from_behind} of {set} point behind the surface"),
-        few(from_behind),
-        if most(from_behind) {
-            "The sign is reversed: it points in the OPPOSITE direction of the photon ray."
-        } else {
-            "The photon ray's direction, with the opposite sign."
-        },
-    ));
-    let is_indirect = few(to_the_light);
-    findings.push(Finding {
-        weight: if is_indirect { Weight::Remark } else { Weight::Grave },
-        ..remark(
-            "indirect only",
-            "photons that have bounced, not those straight from the light",
-            format!("{to_the_light} of {set} come straight from the light"),
-            is_indirect,
-            "Do not store a photon while the size of 'path' is 1.",
-        )
-    });
-    findings
 }

@@ -18,8 +18,10 @@
 //! `golden/grading.md` has what all of this achieves.
 
 pub mod axes;
+pub mod bounces;
 pub mod class;
 pub mod exact;
+pub mod facts;
 pub mod gradescope;
 pub mod hypotheses;
 pub mod intake;
