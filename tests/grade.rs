@@ -134,7 +134,9 @@ fn no_file_and_no_way_out() {
         "photons.csv is neither a file nor a folder",
         "neither a file nor a folder",
     ];
-    for (grade, reason) in grades(&paths, &[]).iter().zip(reasons) {
+    let grades = grades(&paths, &[]);
+    assert_eq!(grades.len(), reasons.len());
+    for (grade, reason) in grades.iter().zip(reasons) {
         if reason.is_empty() {
             assert_eq!(grade["verdict"], "correct", "{grade:#}");
         } else {
@@ -181,7 +183,9 @@ fn other_programs_lists() {
     ];
     let paths: Vec<_> = cases.iter().map(|(name, text, _)| write(at(name), text)).collect();
     let stored = lines(comma).lines().count();
-    for (grade, (name, _, remark)) in grades(&paths, &[]).iter().zip(&cases) {
+    let grades = grades(&paths, &[]);
+    assert_eq!(grades.len(), cases.len());
+    for (grade, (name, _, remark)) in grades.iter().zip(&cases) {
         assert_eq!(grade["verdict"], "correct", "{name}: {grade:#}");
         assert_eq!(grade["score"], 4.0);
         assert_eq!(grade["stored"], stored, "{name}");
