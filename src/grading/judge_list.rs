@@ -1,6 +1,5 @@
 //! The judgement of a photon list.
 
-
 use super::bounces::bounce_findings;
 use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
