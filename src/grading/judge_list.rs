@@ -1,5 +1,7 @@
 //! The judgement of a photon list.
 
+use std::sync::OnceLock;
+
 use super::bounces::bounce_findings;
 use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
@@ -139,7 +141,8 @@ pub fn judge(
             .map(|test| finding_of(test, trial.tests.len(), &reading, explanation.as_ref())),
     );
     findings.push(enough(observation, emitted, trial.emitted));
-    findings.extend(of_bounces);
+    // What is wrong elsewhere shows in the bounces too, and is no matter of how they are counted.
+    findings.extend(of_bounces.into_iter().filter(|finding| finding.is_fault() || !is_off));
     findings.extend(remarks(observation));
     Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
 }
