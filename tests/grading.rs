@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use photon_mapping::accuracy::table::ExpectedTable;
 use photon_mapping::assignment8::{create_light, create_scene};
 use photon_mapping::grading::hypotheses::{
