@@ -139,10 +139,10 @@ fn judge_pattern(case: Case) -> PictureJudgement {
     let mut trial = case.best_trial();
     let is_off = trial.p_value < RARE && case.may_be_off_surface(&trial);
     let is_sparse = case.emitted.is_none() && trial.emitted < LEAST_EMITTED;
-    if let Some(off) = (is_off || is_sparse).then(|| case.best_trial_off_surface()).flatten() {
-        if is_sparse || off.p_value > trial.p_value {
-            trial = off;
-        }
+    if let Some(off) = (is_off || is_sparse).then(|| case.best_trial_off_surface()).flatten()
+        && (is_sparse || off.p_value > trial.p_value)
+    {
+        trial = off;
     }
     let explanation = (trial.p_value < SIGNIFICANCE).then(|| case.name(&trial)).flatten();
     let reading = &case.expectations.fair[trial.reading];
