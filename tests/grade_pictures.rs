@@ -70,6 +70,9 @@ fn found(grade: &Value) -> String {
     grade["findings"][0]["found"].as_str().expect("a finding says what was found").to_owned()
 }
 
+/// What is done to every pixel.
+type Change = fn(&mut Rgb<u8>);
+
 #[test]
 fn pictures_of_fair_readings_are_correct() {
     for (seed, reading) in fair_readings().iter().enumerate() {
@@ -92,7 +95,7 @@ fn pictures_of_fair_readings_are_correct() {
 fn what_is_expected_is_what_pictures_show() {
     let all = expectations();
     let coverage = vec![1.0; all.view.facets.len()];
-    for (emitted, pictures) in [(20_000, 60), (MILLION, 12)] {
+    for (emitted, pictures) in [(20_000, 400), (MILLION, 12)] {
         let expected = Expected::new(&all.view, &all.signatures.fair[0], emitted as f64, &coverage);
         let everything = expected.grouped(&vec![0; all.view.cells.len()], 1);
         let totals: Vec<f64> = (0..pictures)
@@ -172,6 +175,12 @@ fn a_picture_that_is_red_all_over_is_the_nan_of_the_frame() {
 
 #[test]
 fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
+    // Of few photons few pixels are red, and hardly a group of cells is left to be told from others.
+    for seed in [70_085, 70_115, 70_328] {
+        let red = simulate(Variation::default(), seed, 30_000, 2.9e-3);
+        let judgement = judge(&red, Some(30_000));
+        assert!(!judgement.is_incorrect(), "{seed}: {judgement:?}");
+    }
     let fair = fair_readings();
     let of_literal = |standoff| (fair[1].variation, standoff, true);
     for (variation, standoff, has_dots) in [
@@ -194,7 +203,7 @@ fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
 fn dots_of_other_kinds_are_found_and_remarked() {
     let view = &expectations().view;
     let red = simulate(Variation::default(), 37, MILLION, 0.0);
-    let kinds: [(&str, fn(&mut Rgb<u8>)); 5] = [
+    let kinds: [(&str, Change); 5] = [
         ("", framework_dot),
         ("green", |pixel| pixel.0[1] = 255),
         ("add some red", |pixel| pixel.0[0] = pixel.0[0].saturating_add(64)),
@@ -224,7 +233,8 @@ fn other_direct_light_is_seen_through() {
     for (at, pixel) in rounded.pixels_mut().enumerate() {
         pixel.0[at % 3] = pixel.0[at % 3].saturating_add(u8::from(pixel.0[at % 3] > 0));
     }
-    assert!(dots_of(&rounded).expect("it is the view").red == red);
+    let dots = dots_of(&rounded).expect("it is the view");
+    assert!(dots.red == red && dots.remarks.is_empty(), "{:?}", dots.remarks);
 
     let mut bright = plain.clone();
     for channel in bright.pixels_mut().flat_map(|pixel| &mut pixel.0) {

@@ -29,7 +29,7 @@ const RARE: f64 = 0.01;
 /// With fewer groups of cells than this, anything fits that has this many numbers to choose.
 const FEWEST_GROUPS: usize = 4;
 /// But so few red pixels have no more groups.
-const SHORT: f64 = 200.0;
+const SHORT: f64 = 1000.0;
 /// A few odd pixels are no dots.
 const FEWEST_RED: f64 = 10.0;
 /// When no more than this part of the pixels is left, all are red.
