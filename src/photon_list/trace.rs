@@ -10,7 +10,7 @@ use crate::rendering::photon::Photon;
 use crate::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 
 /// How many photons a thread traces before it takes the next piece.
-const PIECE: u64 = 2048;
+const PIECE: u64 = 4096;
 
 /// Traces the photons numbered `photons` on all threads of the current rayon pool and hands their
 /// records to `consume` in order, with the number of photons done so far: see [`in_order`].
