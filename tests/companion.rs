@@ -97,3 +97,39 @@ fn ground_floor_imports_nothing_from_above() {
         }
     }
 }
+
+/// The rows of the tables of `page` under headings that start with `heading`, cell by cell.
+fn table_rows(page: &str, heading: &str) -> Vec<Vec<String>> {
+    let sections = page.split("\n## ").filter(|section| section.starts_with(heading));
+    let lines = sections.flat_map(str::lines).filter(|line| line.starts_with('|'));
+    lines
+        .map(|line| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect())
+        .collect()
+}
+
+#[test]
+fn readme_has_the_numbers_of_golden_grading() {
+    let (readme, golden) = (read("README.md"), read("golden/grading.md"));
+    for row in table_rows(&golden, "Correct submissions") {
+        let line = format!("| {} |", row.join(" | "));
+        assert!(readme.contains(&line), "README lacks {line}");
+    }
+    let sections = ["positions alone", "positions, and", "all columns"]
+        .map(|section| table_rows(&golden, &format!("Found and named: {section}")));
+    let ids = sections[0].iter().filter(|row| row[0].contains('`'));
+    let mut rows = 0;
+    for (place, row) in ids.enumerate() {
+        let (_, id) = row[0].split_once(' ').expect("a number and a name");
+        // Called correct, without a name, then named by number: the diagonal is right.
+        let cells = sections.each_ref().map(|section| {
+            let row = section.iter().find(|row| row[0].ends_with(id)).expect("in every section");
+            let count = |column: usize| row[column].parse::<u32>().unwrap_or(0);
+            let found: u32 = (2..row.len()).map(count).sum();
+            format!("{} / {}", found, count(3 + place))
+        });
+        let line = format!("| {id} | {} |", cells.join(" | "));
+        assert!(readme.contains(&line), "README lacks {line}");
+        rows += 1;
+    }
+    assert_eq!(rows, 13);
+}
