@@ -101,7 +101,8 @@ fn ground_floor_imports_nothing_from_above() {
 /// The rows of the tables of `page` under headings that start with `heading`, cell by cell.
 fn table_rows(page: &str, heading: &str) -> Vec<Vec<String>> {
     let sections = page.split("\n## ").filter(|section| section.starts_with(heading));
-    let lines = sections.flat_map(str::lines).filter(|line| line.starts_with('|'));
+    let lines = sections.flat_map(str::lines);
+    let lines = lines.filter(|line| line.starts_with('|') && !line.starts_with("|---"));
     lines
         .map(|line| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect())
         .collect()
