@@ -174,6 +174,19 @@ fn a_picture_that_is_red_all_over_is_the_nan_of_the_frame() {
 }
 
 #[test]
+fn a_page_without_the_scene_is_not_red_all_over() {
+    // Light over all, red among it; the background of the scene is black.
+    for color in [[255, 255, 255], [255, 255, 0], [255, 192, 203]] {
+        let page = RgbImage::from_pixel(640, 480, Rgb(color));
+        let reason = dots_of(&page).expect_err("it is not the scene");
+        assert!(reason.contains("background"), "{reason}");
+    }
+    // Red all over, the background too: the frame's NaN in a program that asks no surface.
+    let red = RgbImage::from_pixel(640, 480, Rgb([255, 0, 0]));
+    assert!(dots_of(&red).is_ok());
+}
+
+#[test]
 fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
     // Of few photons few pixels are red, and hardly a group of cells is left to be told from others.
     for seed in [70_085, 70_115, 70_328] {

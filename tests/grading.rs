@@ -290,6 +290,46 @@ fn faults_of_to_light_cost_nothing() {
 }
 
 #[test]
+fn only_a_direction_that_is_reversed_throughout_is_called_so() {
+    // Self-hits come from behind, and half of a list may be self-hits.
+    let columns = Columns { to_light: true, ..Columns::default() };
+    let advice_of = |every: usize| {
+        let mut of_reference = records(Variation::default(), 70, EMITTED);
+        of_reference.iter_mut().step_by(every).for_each(|record| record.to_light *= -1.0);
+        let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+        let findings = judgement.findings.into_iter();
+        findings.filter(|it| it.check == "to_light direction").map(|it| it.advice).next()
+    };
+    assert!(advice_of(1).expect("a remark").contains("reversed"));
+    assert!(!advice_of(2).expect("a remark").contains("reversed"));
+}
+
+#[test]
+fn what_is_told_beside_a_p_value_has_its_leeway() {
+    // Two parts in a hundred more on one facet: far beyond chance at ten million photons, but little
+    // beyond the leeway.
+    let signature = &Signatures::of_assignment8().fair[0];
+    let emitted = 1e7;
+    let mut counts = Counts::new(&PLACES);
+    counts.cells = signature.cells.iter().map(|mean| emitted * mean).collect();
+    let corner = PLACES.facets.len();
+    counts.corner = emitted * signature.classes[corner];
+    let wall = &PLACES.facets[5];
+    let cells = wall.first_cell..wall.first_cell + wall.divisions * wall.divisions;
+    counts.cells[cells].iter_mut().for_each(|count| *count *= 1.02);
+    let observation =
+        Observation { counts, ..positions_of(&records(Variation::default(), 1, 9999)) };
+    let judgement = judge(&observation, Some(emitted), true, &EXPECTATIONS);
+    let facets = judgement.findings.iter().find(|it| it.check == "facets").expect("it is tested");
+    assert!(facets.passed, "{facets:?}");
+    let told = facets
+        .found
+        .split(['(', ' '])
+        .find_map(|word| word.parse::<f64>().ok().filter(|_| word.starts_with(['+', '-'])));
+    assert!(told.expect("deviations are told").abs() < 3.0, "{facets:?}");
+}
+
+#[test]
 fn photons_straight_from_the_light_are_seen_by_their_direction() {
     // So few that densities hardly change.
     let mut of_reference = records(Variation::default(), 66, EMITTED);

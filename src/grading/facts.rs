@@ -138,7 +138,7 @@ pub fn remarks(observation: &Observation) -> Vec<Finding> {
     if !is_set {
         return findings;
     }
-    let most = |count: u64| count as f64 > 0.5 * set as f64;
+    let nearly_all = |count: u64| count as f64 > 0.95 * set as f64;
     let few = |count: u64| count as f64 <= 0.01 * set as f64;
     findings.push(remark(
         "to_light length",
@@ -152,7 +152,7 @@ pub fn remarks(observation: &Observation) -> Vec<Finding> {
         "directions to where the photon came from, in front of the surface",
         format!("{from_behind} of {set} point behind the surface"),
         few(from_behind),
-        if most(from_behind) {
+        if nearly_all(from_behind) {
             "The sign is reversed: it points in the OPPOSITE direction of the photon ray."
         } else {
             "The photon ray's direction, with the opposite sign."

@@ -11,6 +11,7 @@ use super::picture::expectations::PictureExpectations;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
 use super::statistics::{Law, corrected, fit, grouped, normal_tails, towards};
+use super::test::Test;
 use super::verdict::{Finding, Weight};
 use crate::compare::section::Section;
 
@@ -67,13 +68,6 @@ impl Expectations {
     }
 }
 
-/// One number's test.
-struct Test {
-    check: &'static str,
-    p_value: f64,
-    found: String,
-}
-
 /// The tests of a list against one fair reading.
 struct Trial {
     reading: usize,
@@ -120,10 +114,9 @@ pub fn judge(
             p_value: Some(trial.p_value),
             passed: false,
             weight: Weight::Remark,
-            advice:
-                "Set 'intensity' to lightIntensity, the light's colour divided by the photons it \
-                     sends out."
-                    .into(),
+            advice: "One of the two is wrong: the intensity, which is to be lightIntensity as it is, or the \
+                     number of photons stored. With --emitted, the number is judged."
+                .into(),
         };
         if by_shape.p_value >= SIGNIFICANCE {
             findings.push(number);
@@ -134,12 +127,10 @@ pub fn judge(
     }
     let reading = expectations.fair[trial.reading].clone();
     let signature = expectations.signatures.fair[trial.reading].clone();
-    findings.extend(
-        trial
-            .tests
-            .iter()
-            .map(|test| finding_of(test, trial.tests.len(), &reading, explanation.as_ref())),
-    );
+    findings.extend(trial.tests.iter().map(|test| {
+        let expected = format!("{} ({})", expected_by(test.check), reading.title);
+        test.finding(trial.tests.len(), expected, explanation.as_ref(), UNEXPLAINED)
+    }));
     findings.push(enough(observation, emitted, trial.emitted));
     // What is wrong elsewhere shows in the bounces too, and is no matter of how they are counted.
     findings.extend(of_bounces.into_iter().filter(|finding| finding.is_fault() || !is_off));
@@ -292,10 +283,8 @@ pub(super) fn joined(mean: &[f64], emitted: f64) -> (Vec<usize>, usize) {
 
 /// The count that is farthest from its expectation, in words.
 fn farthest(counts: &[f64], law: &Law, emitted: f64, name: impl Fn(usize) -> String) -> String {
-    let z = |at: usize| {
-        let deviation = (emitted * law.covariance[at][at]).sqrt().max(1.0);
-        (counts[at] - emitted * law.mean[at]) / deviation
-    };
+    let deviations = law.deviations(emitted);
+    let z = |at: usize| (counts[at] - emitted * law.mean[at]) / deviations[at].max(1.0);
     let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
     let at = farthest.unwrap_or_default();
     format!(
@@ -307,37 +296,15 @@ fn farthest(counts: &[f64], law: &Law, emitted: f64, name: impl Fn(usize) -> Str
     )
 }
 
-fn finding_of(
-    test: &Test,
-    tests: usize,
-    reading: &Hypothesis,
-    explanation: Option<&Explanation>,
-) -> Finding {
-    let p_value = corrected(test.p_value, tests);
-    let passed = p_value >= SIGNIFICANCE;
-    let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
-    let expected = match test.check {
+/// What is to be done where no misreading explains a list.
+const UNEXPLAINED: &str = "None of the known misreadings explains it. Print a few photons and follow them by \
+    hand; 'photon-mapping explain' tells one's whole story.";
+
+fn expected_by(check: &str) -> &'static str {
+    match check {
         "number" => "as many photons as the scene stores of those sent out",
         "facets" => "on every facet as many photons as the scene leaves there",
         "density" => "the scene's density over every facet",
         _ => "no tendency towards a known misreading",
-    };
-    Finding {
-        check: test.check,
-        section: misreading.map(|misreading| misreading.section.title()),
-        expected: format!("{expected} ({})", reading.title),
-        found: test.found.clone(),
-        p_value: Some(p_value),
-        passed,
-        weight: Weight::Fault,
-        advice: match misreading {
-            Some(misreading) if !passed => misreading.advice.into(),
-            None if !passed => {
-                "None of the known misreadings explains it. Print a few photons and \
-                 follow them by hand; 'photon-mapping explain' tells one's whole story."
-                    .into()
-            }
-            _ => "".into(),
-        },
     }
 }

@@ -35,6 +35,7 @@ pub mod policy;
 pub mod signature;
 pub mod statistics;
 pub mod submission;
+mod test;
 pub mod text;
 pub mod variation;
 pub mod verdict;

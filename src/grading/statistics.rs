@@ -88,6 +88,11 @@ impl Law {
         covariance
     }
 
+    /// The standard deviations of counts of `emitted` photons about this law's means, leeway included.
+    pub fn deviations(&self, emitted: f64) -> Vec<f64> {
+        self.of(emitted).iter().enumerate().map(|(at, row)| row[at].sqrt()).collect()
+    }
+
     /// The law of the sums of counts that have the same number in `groups`, of which there are `count`.
     pub fn grouped(&self, groups: &[usize], count: usize) -> Self {
         let mut covariance = vec![vec![0.0; count]; count];

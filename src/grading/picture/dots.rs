@@ -17,6 +17,8 @@ const LEAST_RAISE: u8 = 20;
 const MOST_ASTRAY: f64 = 0.004;
 /// From this part on, another camera is tried.
 const FEW_ASTRAY: f64 = 0.0005;
+/// The part of the background that may be lit: at edges, programs disagree on what is background.
+const MOST_LIT_BACKGROUND: f64 = 0.02;
 /// Where dots as dark as this replace the direct light, they cannot be told from shadows.
 const DARK: u8 = 16;
 /// With this correlation with the direct light, it is the handout's view after all.
@@ -80,6 +82,14 @@ pub fn find_dots<'a>(
             .find(|attempt| is_few(attempt, MOST_ASTRAY))
             .ok_or_else(|| reason(pixels, view, best.astray as f64 / surface))?;
         is_shifted = false;
+    }
+    // Only red may show where no surface does: a photon that is near everything is near nothing, too.
+    let background = || (0..PIXELS).filter(|pixel| !view.shows_surface(*pixel));
+    let is_lit = |pixel: &usize| pixels[*pixel][1..].iter().any(|channel| *channel > DARK);
+    if background().filter(is_lit).count() as f64
+        > MOST_LIT_BACKGROUND * background().count() as f64
+    {
+        return Err(format!("its background is not black: {WANTED}"));
     }
     let mut remarks = Vec::new();
     if is_shifted {

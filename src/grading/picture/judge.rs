@@ -15,6 +15,7 @@ use crate::grading::verdict::{Finding, Weight};
 use crate::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
 use super::signature::PictureSignature;
+use crate::grading::test::Test;
 
 /// By which part of itself a density may be off for reasons that a course cannot fault.
 const LEEWAY: f64 = 0.008;
@@ -60,13 +61,6 @@ impl PictureJudgement {
     pub fn is_incorrect(&self) -> bool {
         self.has_dots && self.findings.iter().any(Finding::is_fault)
     }
-}
-
-/// One number's test.
-pub(super) struct Test {
-    pub(super) check: &'static str,
-    pub(super) p_value: f64,
-    pub(super) found: String,
 }
 
 /// The tests of a picture against one fair reading.
@@ -148,7 +142,10 @@ fn judge_pattern(case: Case) -> PictureJudgement {
     let mut findings: Vec<Finding> = trial
         .tests
         .iter()
-        .map(|test| words::finding(test, trial.tests.len(), reading, explanation.as_ref()))
+        .map(|test| {
+            let expected = format!("{} ({})", words::expected_by(test.check), reading.title);
+            test.finding(trial.tests.len(), expected, explanation.as_ref(), words::UNEXPLAINED)
+        })
         .collect();
     if case.emitted.is_none() {
         findings.push(words::enough(case.counts.iter().sum(), trial.emitted));

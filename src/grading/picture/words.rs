@@ -1,51 +1,24 @@
 //! What is said of a picture.
 
 use super::expected::Expected;
-use super::judge::Test;
 use crate::compare::section::Section;
-use crate::grading::hypotheses::Hypothesis;
-use crate::grading::judge_list::SIGNIFICANCE;
-use crate::grading::naming::Explanation;
-use crate::grading::statistics::corrected;
 use crate::grading::verdict::{Finding, Weight};
 
 /// The dots of a picture are too few for what the handout asks for when they fit fewer photons sent
 /// out than this.
 pub(super) const LEAST_EMITTED: f64 = 5000.0;
 
-/// What a test found.
-pub(super) fn finding(
-    test: &Test,
-    tests: usize,
-    reading: &Hypothesis,
-    explanation: Option<&Explanation>,
-) -> Finding {
-    let p_value = corrected(test.p_value, tests);
-    let passed = p_value >= SIGNIFICANCE;
-    let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
-    let expected = match test.check {
+/// What is to be done where no misreading explains a picture.
+pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it. Hand in the photon list: it \
+    tells more than a picture.";
+
+/// What the test named `check` expects.
+pub(super) fn expected_by(check: &str) -> &'static str {
+    match check {
         "number of dots" => "as many dots as the photons sent out leave in sight",
         "dots by facet" => "on every facet in sight as many dots as the scene leaves there",
         "density of dots" => "the scene's density of dots over every facet in sight",
         _ => "no tendency towards a known misreading",
-    };
-    Finding {
-        check: test.check,
-        section: misreading.map(|misreading| misreading.section.title()),
-        expected: format!("{expected} ({})", reading.title),
-        found: test.found.clone(),
-        p_value: Some(p_value),
-        passed,
-        weight: Weight::Fault,
-        advice: match misreading {
-            Some(misreading) if !passed => misreading.advice.into(),
-            None if !passed => {
-                "None of the known misreadings explains it. Hand in the photon list: it tells more \
-                 than a picture."
-                    .into()
-            }
-            _ => "".into(),
-        },
     }
 }
 

@@ -1,0 +1,45 @@
+//! One number's test, of a list or a picture, and what is said of it.
+
+use super::judge_list::SIGNIFICANCE;
+use super::naming::Explanation;
+use super::statistics::corrected;
+use super::verdict::{Finding, Weight};
+
+/// What a test found.
+pub(super) struct Test {
+    pub(super) check: &'static str,
+    /// The chance of this, or of something stranger, before it is corrected for the number of tests.
+    pub(super) p_value: f64,
+    pub(super) found: String,
+}
+
+impl Test {
+    /// The finding, where `tests` numbers were tested. Its advice is that of the misreading that explains it, else
+    /// `unexplained`.
+    pub(super) fn finding(
+        &self,
+        tests: usize,
+        expected: String,
+        explanation: Option<&Explanation>,
+        unexplained: &'static str,
+    ) -> Finding {
+        let p_value = corrected(self.p_value, tests);
+        let passed = p_value >= SIGNIFICANCE;
+        let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
+        let advice = if passed {
+            ""
+        } else {
+            misreading.map_or(unexplained, |misreading| misreading.advice)
+        };
+        Finding {
+            check: self.check,
+            section: misreading.map(|misreading| misreading.section.title()),
+            expected,
+            found: self.found.clone(),
+            p_value: Some(p_value),
+            passed,
+            weight: Weight::Fault,
+            advice: advice.into(),
+        }
+    }
+}
