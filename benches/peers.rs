@@ -7,8 +7,9 @@ use std::time::Instant;
 use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::trace::trace_list;
+use photon_mapping::scene::Scene;
+use photon_mapping::scene::intersection_state::IntersectionState;
 use photon_mapping::scene::ray::Ray;
-use photon_mapping::scene::tree::Tree;
 use photon_mapping::scene::triangle::Triangle;
 
 fn main() {
@@ -56,18 +57,20 @@ fn mesh(path: &str) {
     let (origins, directions) = ends.split_at(rays);
     let triangles: Vec<Triangle> = corners
         .chunks_exact(3)
-        .map(|c| Triangle {
-            vertices: [c[0], c[1], c[2]],
-            normal: Vec3::Z,
-            parent_mesh_object: 0,
-            facet: 0,
+        .map(|c| {
+            let normal = (c[1] - c[0]).cross(c[2] - c[0]).normalize_or(Vec3::Z);
+            // The mesh is a bumpy sphere about the origin.
+            let normal = normal * normal.dot(c[0]).signum();
+            let vertices = [c[0], c[1], c[2]];
+            Triangle { vertices, normal, parent_mesh_object: 0, facet: 0 }
         })
         .collect();
     let rays: Vec<Ray> = origins.iter().zip(directions).map(|(o, d)| Ray::new(*o, *d)).collect();
     let start = Instant::now();
-    let tree = Tree::new(&triangles);
+    let scene = Scene::new(Vec::new(), triangles, Vec::new());
     let build = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let found = rays.iter().filter(|ray| tree.closest(ray).is_some()).count();
+    let mut state = IntersectionState::new();
+    let found = rays.iter().filter(|ray| scene.trace(ray, Some(&mut state))).count();
     println!("{build} {} {found}", start.elapsed().as_secs_f64() / rays.len() as f64 * 1e9);
 }

@@ -150,9 +150,9 @@ fn closest_in_lanes_by_triangles(bencher: Bencher, triangles: usize) {
 fn closest_in_a_tree_by_triangles(bencher: Bencher, triangles: usize) {
     let scene = boxes(triangles);
     let (tree, all) = (Tree::new(scene.triangles()), scattered_rays(&scene));
-    bencher
-        .counter(ItemsCount::new(RAYS))
-        .bench(|| all.iter().filter(|ray| tree.closest(ray).is_some()).count());
+    bencher.counter(ItemsCount::new(RAYS)).bench(|| {
+        all.iter().filter(|ray| tree.closest(ray, scene.triangles(), |_, _| true).is_some()).count()
+    });
 }
 
 #[divan::bench(sample_count = 20)]

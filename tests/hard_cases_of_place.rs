@@ -156,8 +156,7 @@ fn judge_misses_nothing() {
 }
 
 /// What the tests above hold, for 10^8 photons each: `cargo test --release -- --ignored --nocapture`.
-/// Every case has a seed of its own, since the paths of a moved scene are those at home. A ray in some
-/// 10^8 hits an edge of a box and is given to the face behind it.
+/// Every case has a seed of its own, since the paths of a moved scene are those at home.
 #[test]
 #[ignore = "takes many minutes"]
 fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
@@ -178,7 +177,7 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
         let case = format!("scaled by {scale:e}");
         (case, moved_handout(scale, DVec3::ZERO, 0, PHOTONS))
     });
-    println!("case, rays, self-hits, leaks, under boxes, at edges, seconds");
+    println!("case, rays, self-hits, leaks, under boxes, seconds");
     let cases = details.into_iter().chain(moved).chain(scaled);
     for (seed, (case, renderer)) in (1100..).zip(cases) {
         let start = Instant::now();
@@ -186,12 +185,10 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
         // One ray left the light for every photon, and another a surface for every one that was stored.
         let stored: u64 = judgement.stored.iter().sum();
         let seconds = start.elapsed().as_secs_f64();
-        let (impossible, at_edges) = (judgement.impossible(), judgement.at_edges);
-        println!("{case}, {}, {impossible:?}, {at_edges}, {seconds:.1}", PHOTONS + stored);
+        let impossible = judgement.impossible();
+        println!("{case}, {}, {impossible:?}, {seconds:.1}", PHOTONS + stored);
         assert!(stored > PHOTONS / 20, "{case}: only {stored} photons were judged");
-        // Those within one rounding of an edge: about one in 10^9 photons.
-        assert!(judgement.at_edges + judgement.leaks <= 4, "{case}");
-        check(&Judgement { leaks: 0, ..judgement }, PHOTONS, &case);
+        check(&judgement, PHOTONS, &case);
     }
 }
 

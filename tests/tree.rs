@@ -6,10 +6,16 @@ use photon_mapping::scene::tree::Tree;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
 
-fn brute_force(triangles: &[Triangle], ray: &Ray) -> Option<(usize, f32)> {
+fn brute_force(
+    triangles: &[Triangle],
+    ray: &Ray,
+    of: impl Fn(&Triangle, f32) -> bool,
+) -> Option<(usize, f32)> {
     let sheared = ShearedRay::new(ray);
-    let hits = triangles.iter().enumerate().filter_map(|(index, triangle)| {
-        Some((index, triangle.intersect(&sheared).filter(|t| *t < ray.max_t)?))
+    let all = triangles.iter().enumerate();
+    let hits = all.filter_map(|(index, triangle)| {
+        let t = triangle.intersect(&sheared)?;
+        (t < ray.max_t && of(triangle, t)).then_some((index, t))
     });
     hits.reduce(|best, hit| if hit.1 < best.1 { hit } else { best })
 }
@@ -57,10 +63,19 @@ proptest! {
                 continue;
             };
             let mut ray = Ray::new(origin, direction);
-            prop_assert_eq!(tree.closest(&ray), brute_force(&triangles, &ray));
-            ray.max_t = *max_t;
-            prop_assert_eq!(tree.closest(&ray), brute_force(&triangles, &ray));
-            prop_assert_eq!(tree.any(&ray), brute_force(&triangles, &ray).is_some());
+            let all = |_: &Triangle, _| true;
+            let front = |triangle: &Triangle, _| triangle.faces(direction);
+            for start_error in [0.0, 0.01] {
+                (ray.max_t, ray.start_error) = (f32::INFINITY, start_error);
+                let found = tree.closest(&ray, &triangles, all);
+                prop_assert_eq!(found, brute_force(&triangles, &ray, all));
+                ray.max_t = *max_t;
+                let found = tree.closest(&ray, &triangles, all);
+                prop_assert_eq!(found, brute_force(&triangles, &ray, all));
+                prop_assert_eq!(tree.any(&ray, &triangles), found.is_some());
+                let found = tree.closest(&ray, &triangles, front);
+                prop_assert_eq!(found, brute_force(&triangles, &ray, front));
+            }
         }
     }
 }

@@ -46,11 +46,20 @@ pub struct Rays {
     pub origin: [Lanes; 3],
     /// Where they go: unit vectors.
     pub direction: [Lanes; 3],
+    /// [`Ray::start_error`].
+    pub start_error: Lanes,
+    /// [`Ray::max_t`], which only [`Hits::settle`] minds.
+    pub max_t: Lanes,
 }
 
 impl Default for Rays {
     fn default() -> Self {
-        Self { origin: [[0.0; GROUP]; 3], direction: [[1.0; GROUP]; 3] }
+        Self {
+            origin: [[0.0; GROUP]; 3],
+            direction: [[1.0; GROUP]; 3],
+            start_error: [0.0; GROUP],
+            max_t: [f32::INFINITY; GROUP],
+        }
     }
 }
 
@@ -61,7 +70,8 @@ pub struct Hits {
     pub t: Lanes,
     /// The triangles, or [`NONE`].
     pub triangle: [u32; GROUP],
-    /// Not 0 where an edge function that decides was rounded to zero: see [`Self::settle`].
+    /// Not 0 where an edge function that decides was rounded to zero, or where a triangle is within the
+    /// error of the start: see [`Self::settle`].
     is_doubtful: [u32; GROUP],
     seen: Vec<[Lanes; 3]>,
 }
@@ -141,14 +151,14 @@ impl NullaryFnOnce for Closest<'_> {
                 let (least, greatest) = (least(u, v, w), greatest(u, v, w));
                 // A determinant of zero gives a t that is infinite or not a number.
                 let t = (u * a[2][lane] + v * b[2][lane] + w * c[2][lane]) / (u + v + w);
-                let is_closer = !(mask(least < 0.0) & mask(greatest > 0.0))
-                    & mask(t > 0.0)
-                    & mask(t < closest_t[lane]);
+                let is_met = !(mask(least < 0.0) & mask(greatest > 0.0));
+                let is_closer = is_met & mask(t > 0.0) & mask(t < closest_t[lane]);
                 let kept = closest_t[lane].to_bits() & !is_closer;
                 closest_t[lane] = f32::from_bits((t.to_bits() & is_closer) | kept);
                 closest[lane] = (index as u32 & is_closer) | (closest[lane] & !is_closer);
                 // Beside a true negative and a true positive one, a zero changes nothing.
-                doubt[lane] |= mask(least == 0.0) | mask(greatest == 0.0);
+                let is_at_start = is_met & mask(t.abs() <= rays.start_error[lane]);
+                doubt[lane] |= mask(least == 0.0) | mask(greatest == 0.0) | is_at_start;
             }
         }
         (hits.t, hits.triangle, hits.is_doubtful) = (closest_t, closest, doubt);
@@ -205,26 +215,37 @@ fn turn(axis: i32, x: f32, y: f32, z: f32) -> (f32, f32, f32) {
 }
 
 impl Rays {
-    /// Puts `ray` into `lane`. Its end is not kept.
+    /// Puts `ray` into `lane`.
     pub fn set(&mut self, lane: usize, ray: &Ray) {
         for axis in 0..3 {
             self.origin[axis][lane] = ray.position()[axis];
             self.direction[axis][lane] = ray.ray_direction()[axis];
         }
+        (self.start_error[lane], self.max_t[lane]) = (ray.start_error, ray.max_t);
     }
 
     /// The ray in `lane`.
     pub fn ray(&self, lane: usize) -> Ray {
-        let of_lane = |columns: &[Lanes; 3]| Vec3::from_array([0, 1, 2].map(|c| columns[c][lane]));
-        Ray::new(of_lane(&self.origin), of_lane(&self.direction))
+        let origin = Vec3::from_array([0, 1, 2].map(|c| self.origin[c][lane]));
+        let mut ray = Ray::new(origin, self.direction(lane));
+        (ray.start_error, ray.max_t) = (self.start_error[lane], self.max_t[lane]);
+        ray
+    }
+
+    fn direction(&self, lane: usize) -> Vec3 {
+        Vec3::from_array([0, 1, 2].map(|c| self.direction[c][lane]))
     }
 }
 
 impl Hits {
-    /// Asks [`Scene::trace`] for those of the first `count` rays that are in doubt: its second look in f64 is rarely needed and not made in lanes.
+    /// Asks [`Scene::trace`] for those of the first `count` rays that are in doubt or came from behind: its
+    /// second looks are rarely needed and not made in lanes.
     pub fn settle(&mut self, scene: &Scene, rays: &Rays, count: usize) {
         for lane in 0..count {
-            if self.is_doubtful[lane] != 0 {
+            let triangle = scene.triangles().get(self.triangle[lane] as usize);
+            let is_from_behind =
+                triangle.is_some_and(|triangle| !triangle.faces(rays.direction(lane)));
+            if self.is_doubtful[lane] != 0 || is_from_behind {
                 let mut state = IntersectionState::new();
                 let is_met = scene.trace(&rays.ray(lane), Some(&mut state));
                 self.t[lane] = state.intersection_t;
@@ -263,7 +284,9 @@ mod tests {
                 let target = [a, 0.5 * (b + c), (a + b + c) / 3.0][lane % 3];
                 let start = point();
                 let direction = (target - start).try_normalize().unwrap_or(Vec3::X);
-                rays.set(lane, &Ray::new(start, direction));
+                let mut ray = Ray::new(start, direction);
+                ray.start_error = [0.0, 0.6, 0.01][lane % 3];
+                rays.set(lane, &ray);
             }
             let scene = Scene::new(Vec::new(), triangles, Vec::new());
             let corners = SharedCorners::new(&scene);

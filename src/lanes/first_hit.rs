@@ -11,6 +11,9 @@ use pulp::NullaryFnOnce;
 use super::closest_hit::{NONE, greatest, least, mask};
 use super::outlook::Outlook;
 use super::width::Width;
+use crate::scene::Scene;
+use crate::scene::intersection_state::IntersectionState;
+use crate::scene::ray::Ray;
 use crate::scene::triangle::meet;
 
 /// How many photons wait before they are tested.
@@ -44,8 +47,8 @@ pub struct FirstHits<'a> {
     /// By axis, then triangle.
     queues: Vec<Queue>,
     triangles: usize,
-    /// What each photon met.
-    pub hits: Vec<FirstHit>,
+    /// What each photon met, were there no edges where a back seems closer than a front.
+    hits: Vec<FirstHit>,
 }
 
 impl<'a> FirstHits<'a> {
@@ -85,6 +88,21 @@ impl<'a> FirstHits<'a> {
         }
     }
 
+    /// What the photon at `place` met, whose ray is `ray`.
+    #[inline(always)]
+    pub fn hit(&self, place: usize, scene: &Scene, ray: &Ray) -> Option<FirstHit> {
+        let hit = self.hits[place];
+        let triangle = scene.triangles().get(hit.triangle as usize)?;
+        if triangle.faces(ray.ray_direction()) {
+            return Some(hit);
+        }
+        let mut state = IntersectionState::new();
+        scene.trace(ray, Some(&mut state)).then_some(FirstHit {
+            t: state.intersection_t,
+            triangle: state.intersected_primitive as u32,
+        })
+    }
+
     fn test(&mut self, axis: usize, triangle: u32) {
         let queue = &mut self.queues[axis * self.triangles + triangle as usize];
         if queue.waiting == 0 {
@@ -103,7 +121,7 @@ impl<'a> FirstHits<'a> {
                 let shear = Vec3::from_slice(&queue.photons[lane]);
                 let sheared =
                     |c: Vec3| Vec3::new(c.x - shear.x * c.z, c.y - shear.y * c.z, shear.z * c.z);
-                t[lane] = meet(corners.map(sheared)).unwrap_or(f32::INFINITY);
+                t[lane] = meet(corners.map(sheared)).filter(|t| *t > 0.0).unwrap_or(f32::INFINITY);
             }
             let hit = &mut self.hits[queue.photons[lane][3].to_bits() as usize];
             let is_tie = (t[lane] == hit.t) & (triangle < hit.triangle);
@@ -154,9 +172,6 @@ mod tests {
     use super::super::outlook::aim;
     use super::*;
     use crate::random::photon_random;
-    use crate::scene::Scene;
-    use crate::scene::intersection_state::IntersectionState;
-    use crate::scene::ray::Ray;
     use crate::scene::triangle::Triangle;
 
     /// Photons fly exactly at corners and edges here, which drawn ones seldom do.
@@ -191,11 +206,13 @@ mod tests {
                     found.add(cell, [shear.x, shear.y, shear.z, place]);
                 }
                 found.finish();
-                for (direction, hit) in directions.iter().zip(&found.hits) {
+                for (place, direction) in directions.iter().enumerate() {
                     let mut state = IntersectionState::new();
-                    let is_met = scene.trace(&Ray::new(light, *direction), Some(&mut state));
-                    assert_eq!(is_met, hit.triangle != NONE);
-                    if is_met {
+                    let ray = Ray::new(light, *direction);
+                    let is_met = scene.trace(&ray, Some(&mut state));
+                    let hit = found.hit(place, &scene, &ray);
+                    assert_eq!(is_met, hit.is_some());
+                    if let Some(hit) = hit {
                         assert_eq!(state.intersected_primitive as u32, hit.triangle);
                         assert_eq!(state.intersection_t.to_bits(), hit.t.to_bits());
                         met += 1;

@@ -54,6 +54,7 @@ impl NullaryFnOnce for Scatter<'_> {
             rays.origin[0][lane] = start.x;
             rays.origin[1][lane] = start.y;
             rays.origin[2][lane] = start.z;
+            rays.start_error[lane] = offset.start_error(needed[lane]);
         }
     }
 }

@@ -9,7 +9,7 @@ use super::chacha::{self, number};
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
 use super::emission::{self, Aim, Aims, Emission, Emit, coordinate, is_in_sphere};
-use super::first_hit::FirstHits;
+use super::first_hit::{FirstHit, FirstHits};
 use super::outlook::Outlook;
 use super::scattering::Scatter;
 use super::{LaneTracer, Surface};
@@ -113,10 +113,11 @@ impl LaneTracer<'_> {
         }
         first_hits.finish();
         let mut arrivals = Arrivals::with_capacity(departures.len());
-        for (Departure { direction, draws }, hit) in departures.into_iter().zip(&first_hits.hits) {
-            if hit.triangle != NONE {
-                let point = Ray::new(light.position, direction).ray_position(hit.t);
-                let (t, triangle) = (hit.t, hit.triangle);
+        let scene = &self.renderer.stored_scene;
+        for (place, Departure { direction, draws }) in departures.into_iter().enumerate() {
+            let ray = Ray::new(light.position, direction);
+            if let Some(FirstHit { t, triangle }) = first_hits.hit(place, scene, &ray) {
+                let point = ray.ray_position(t);
                 arrivals.places.push(Arrival { point, direction, t, triangle });
                 arrivals.draws.push(draws);
             }

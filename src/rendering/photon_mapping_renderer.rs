@@ -155,7 +155,8 @@ impl PhotonMappingRenderer {
             state.intersection_t,
         );
         let start = self.reading.offset.start(intersection_point, normal, world_direction, needed);
-        let diffuse_reflection_ray = Ray::new(start, world_direction);
+        let mut diffuse_reflection_ray = Ray::new(start, world_direction);
+        diffuse_reflection_ray.start_error = self.reading.offset.start_error(needed);
         self.trace_photon(
             photon_map,
             &diffuse_reflection_ray,

@@ -29,6 +29,15 @@ pub enum Offset {
 }
 
 impl Offset {
+    /// How far off along its ray a start may be where an offset of `needed` is needed. Only the reference
+    /// counts with it; half of the offset, so that the surface left behind is never within it.
+    pub fn start_error(self, needed: f32) -> f32 {
+        match self {
+            Self::AsNeeded => 0.5 * needed,
+            Self::None | Self::AlongNormal(_) | Self::AlongDirection(_) => 0.0,
+        }
+    }
+
     /// The start of a ray that leaves `point`, where the unit normal is `normal` and an offset of
     /// `needed` is needed, along the unit vector `direction`.
     pub fn start(self, point: Vec3, normal: Vec3, direction: Vec3, needed: f32) -> Vec3 {

@@ -28,6 +28,9 @@ pub const LARGE_EPSILON: f32 = 1e-5;
 /// handout's have 0.85.
 const ORDINARY_EDGE: f32 = 0.5;
 
+/// So many times their rounding two places may lie apart and still be the same one to a ray that grazes.
+const NEAR: f32 = 64.0;
+
 /// A thin triangle rounds a point as if it were larger, but not by more than this.
 const THINNEST: f32 = 16.0;
 
@@ -110,25 +113,41 @@ impl Scene {
     /// to the smallest, but never below what rounding may have done to the point: a few units in the last
     /// place of the lengths it was computed from.
     pub fn offset(&self, triangle: usize, point: Vec3, t: f32) -> f32 {
+        self.epsilon.max(self.rounding(triangle, point, t))
+    }
+
+    fn rounding(&self, triangle: usize, point: Vec3, t: f32) -> f32 {
         let lengths = point.abs().max_element() + 2.0 * t + self.sizes[triangle];
-        self.epsilon.max(2.0 * f32::EPSILON * lengths)
+        2.0 * f32::EPSILON * lengths
     }
 
     /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.
     ///
     /// With a `state`, it is filled with the closest hit; of two at the same distance, the one of
     /// the triangle that comes first. Without one, any hit will do.
+    ///
+    /// A ray that meets the back of a surface is looked at once more, since rounding may be the cause. Where
+    /// it touches the edge of a solid, it enters and leaves at once, and the back may seem to be before the
+    /// front; where it grazes the surface below which it started, the [`Ray::start_error`] may have been too
+    /// short. So a back yields to a front next to it, or next to the start.
     pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
         let Some(state) = state else {
             return match &self.tree {
-                Some(tree) => tree.any(ray),
+                Some(tree) => tree.any(ray, &self.triangles),
                 None => self.hits(ray).next().is_some(),
             };
         };
-        let closest = match &self.tree {
-            Some(tree) => tree.closest(ray),
-            None => self.hits(ray).reduce(|best, hit| if hit.1 < best.1 { hit } else { best }),
-        };
+        let direction = ray.ray_direction();
+        let mut closest = self.closest(ray, |_, _| true);
+        if let Some((index, t)) = closest.filter(|hit| !self.triangles[hit.0].faces(direction)) {
+            let mut again = *ray;
+            again.max_t = ray.max_t.min(t + NEAR * self.rounding(index, ray.ray_position(t), t));
+            again.start_error = NEAR * ray.start_error;
+            let is_front = |triangle: &Triangle, t| {
+                triangle.faces(direction) && t * direction.dot(triangle.normal) <= ray.start_error
+            };
+            closest = self.closest(&again, is_front).or(closest);
+        }
         if let Some((index, t)) = closest {
             *state = IntersectionState {
                 intersection_ray: *ray,
@@ -137,6 +156,17 @@ impl Scene {
             };
         }
         closest.is_some()
+    }
+
+    /// The closest of the hits `of` of `ray` before its `max_t`: a triangle and its distance.
+    fn closest(&self, ray: &Ray, of: impl Fn(&Triangle, f32) -> bool) -> Option<(usize, f32)> {
+        match &self.tree {
+            Some(tree) => tree.closest(ray, &self.triangles, of),
+            None => self
+                .hits(ray)
+                .filter(|(index, t)| of(&self.triangles[*index], *t))
+                .reduce(|best, hit| if hit.1 < best.1 { hit } else { best }),
+        }
     }
 
     /// Every triangle that `ray` meets before its `max_t`, with its distance.

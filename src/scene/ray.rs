@@ -9,12 +9,15 @@ pub struct Ray {
     direction: Vec3,
     /// Nothing at this distance or beyond is met; infinite unless the ray ends somewhere.
     pub max_t: f32,
+    /// By how much rounding may have moved the start; 0 unless set. A triangle that faces the ray is met up to
+    /// this far behind the start, and one that shows its back only where the start is deeper below it.
+    pub start_error: f32,
 }
 
 impl Ray {
     /// A ray from `position` along the unit vector `direction`, without an end.
     pub fn new(position: Vec3, direction: Vec3) -> Self {
-        Self { position, direction, max_t: f32::INFINITY }
+        Self { position, direction, max_t: f32::INFINITY, start_error: 0.0 }
     }
 
     /// The point at distance `t` from the start: C++ `Ray::GetRayPosition(t)`.

@@ -152,18 +152,29 @@ impl Tree {
         place as u32
     }
 
-    /// The closest triangle that `ray` meets before its end, and its distance; of two at the same
-    /// distance, the one of the lower index.
-    pub fn closest(&self, ray: &Ray) -> Option<(usize, f32)> {
-        self.search(ray, false)
+    /// The closest of the hits `of` of `ray` before its end: a triangle and its distance; of two at the
+    /// same distance, the one of the lower index. `triangles` are those of [`Self::new`].
+    pub fn closest(
+        &self,
+        ray: &Ray,
+        triangles: &[Triangle],
+        of: impl Fn(&Triangle, f32) -> bool,
+    ) -> Option<(usize, f32)> {
+        self.search(ray, triangles, of, false)
     }
 
     /// Whether `ray` meets anything before its end.
-    pub fn any(&self, ray: &Ray) -> bool {
-        self.search(ray, true).is_some()
+    pub fn any(&self, ray: &Ray, triangles: &[Triangle]) -> bool {
+        self.search(ray, triangles, |_, _| true, true).is_some()
     }
 
-    fn search(&self, ray: &Ray, any_will_do: bool) -> Option<(usize, f32)> {
+    fn search(
+        &self,
+        ray: &Ray,
+        triangles: &[Triangle],
+        of: impl Fn(&Triangle, f32) -> bool,
+        any_will_do: bool,
+    ) -> Option<(usize, f32)> {
         let (origin, direction) = (ray.position(), ray.ray_direction());
         let reach = (self.bounds.low - origin).abs().max((self.bounds.high - origin).abs());
         let mut search = Search {
@@ -171,7 +182,7 @@ impl Tree {
             sheared: ShearedRay::new(ray),
             reciprocal: direction.recip(),
             first: direction.to_array().map(|d| usize::from(d.is_sign_negative())),
-            slack: SLACK * reach.max_element(),
+            slack: SLACK * reach.max_element() + ray.start_error,
             closest: ray.max_t,
             index: NO_CHILD,
         };
@@ -192,7 +203,7 @@ impl Tree {
                         }
                     }
                 } else {
-                    search.test(&self.leaves[(place & !LEAF) as usize]);
+                    search.test(&self.leaves[(place & !LEAF) as usize], triangles, &of);
                     if any_will_do && search.index != NO_CHILD {
                         break;
                     }
@@ -235,7 +246,7 @@ impl Search {
 
     /// Tests the triangles of `leaf`.
     #[inline(always)]
-    fn test(&mut self, leaf: &Leaf) {
+    fn test(&mut self, leaf: &Leaf, triangles: &[Triangle], of: impl Fn(&Triangle, f32) -> bool) {
         let mut seen = [[[0.0; IN_LEAF]; 3]; 3];
         let [x, y, z] = self.sheared.order();
         let shear = self.sheared.shear();
@@ -262,10 +273,13 @@ impl Search {
         }
         for lane in (0..IN_LEAF).filter(|lane| may_be_met[*lane]) {
             let of_lane = |corner: &[Four; 3]| Vec3::from_array(corner.map(|axis| axis[lane]));
-            let Some(t) = meet([of_lane(a), of_lane(b), of_lane(c)]) else {
+            let index = leaf.indices[lane];
+            let triangle = &triangles[index as usize];
+            let t = meet([of_lane(a), of_lane(b), of_lane(c)]);
+            let Some(t) = t.filter(|t| self.sheared.reaches(triangle, *t) && of(triangle, *t))
+            else {
                 continue;
             };
-            let index = leaf.indices[lane];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
             if t < self.closest || is_tie {
                 (self.closest, self.index) = (t, index);

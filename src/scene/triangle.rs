@@ -23,6 +23,8 @@ pub struct Triangle {
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
     origin: Vec3,
+    direction: Vec3,
+    start_error: f32,
     axes: [usize; 3],
     shear: Vec3,
 }
@@ -34,6 +36,8 @@ impl ShearedRay {
         let [x, y, z] = Self::axes(direction);
         Self {
             origin: ray.position(),
+            direction,
+            start_error: ray.start_error,
             axes: [x, y, z],
             shear: Vec3::new(
                 direction[x] / direction[z],
@@ -68,6 +72,13 @@ impl ShearedRay {
         }
     }
 
+    /// Whether the ray meets `triangle` at the distance `t` by what is known of its start: see [`Ray::start_error`].
+    #[inline(always)]
+    pub(crate) fn reaches(&self, triangle: &Triangle, t: f32) -> bool {
+        let cosine = self.direction.dot(triangle.normal);
+        if cosine <= 0.0 { t > -self.start_error } else { t * cosine > self.start_error }
+    }
+
     /// `vertex` as the ray sees it: x and y across the ray, z along it in units of the ray's t.
     fn see(&self, vertex: Vec3) -> Vec3 {
         let from_origin = vertex - self.origin;
@@ -98,19 +109,27 @@ impl Triangle {
         a.cross(b).length() / self.longest_edge()
     }
 
-    /// The distance t > 0 at which `ray` meets the triangle, from either side; `None` when it
-    /// passes beside it, behind its start, or within its plane.
+    /// The distance t at which `ray` meets the triangle, from either side; `None` when it passes beside
+    /// it, within its plane, or when the triangle lies behind the ray's start: t > 0, but for the
+    /// [`Ray::start_error`].
     ///
     /// The framework uses the test of Moller and Trumbore, which can let a ray slip between two
     /// triangles that share an edge. This is the watertight test of Woop, Benthin and Wald
     /// (*Watertight Ray/Triangle Intersection*, JCGT 2013): seen along the ray, the sign of each
     /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
     pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
-        meet(self.vertices.map(|vertex| ray.see(vertex)))
+        let t = meet(self.vertices.map(|vertex| ray.see(vertex)))?;
+        ray.reaches(self, t).then_some(t)
+    }
+
+    /// Whether a ray in `direction` meets the side to which the normal points.
+    pub fn faces(&self, direction: Vec3) -> bool {
+        direction.dot(self.normal) <= 0.0
     }
 }
 
-/// The test of [`Triangle::intersect`] for the corners `a`, `b` and `c` as the ray sees them.
+/// The test of [`Triangle::intersect`] for the corners `a`, `b` and `c` as the ray sees them: the distance
+/// may be 0 or less, or not a number.
 #[inline(always)]
 pub(crate) fn meet([a, b, c]: [Vec3; 3]) -> Option<f32> {
     let mut u = c.x * b.y - c.y * b.x;
@@ -130,8 +149,7 @@ pub(crate) fn meet([a, b, c]: [Vec3; 3]) -> Option<f32> {
     if determinant == 0.0 {
         return None;
     }
-    let t = (u * a.z + v * b.z + w * c.z) / determinant;
-    (t > 0.0).then_some(t)
+    Some((u * a.z + v * b.z + w * c.z) / determinant)
 }
 
 fn exact_edge(p: Vec3, q: Vec3) -> f32 {

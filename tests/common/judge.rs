@@ -20,9 +20,6 @@ pub struct Judgement {
     pub self_hits: u64,
     /// Hits from behind: every surface of the scene is closed or faces all others.
     pub leaks: u64,
-    /// Hits from behind at an edge of a box, where the face in front is hit too: of two at the same
-    /// distance the first counts, whichever way it looks.
-    pub at_edges: u64,
     /// Photons on the floor inside the footprint of a box.
     pub under_boxes: u64,
 }
@@ -37,7 +34,6 @@ impl Judgement {
         self.stored.iter_mut().zip(other.stored).for_each(|(sum, stored)| *sum += stored);
         self.self_hits += other.self_hits;
         self.leaks += other.leaks;
-        self.at_edges += other.at_edges;
         self.under_boxes += other.under_boxes;
         self
     }
@@ -173,14 +169,7 @@ impl Judge {
                 if face == left {
                     judgement.self_hits += 1;
                 } else if plane.normal.dot(direction) >= 0.0 {
-                    let point = state.intersection_point().as_dvec3();
-                    let is_at_edge = self.planes.iter().any(|other| {
-                        other.surface == plane.surface
-                            && other.normal.dot(direction) < 0.0
-                            && other.holds(point)
-                    });
-                    judgement.at_edges += u64::from(is_at_edge);
-                    judgement.leaks += u64::from(!is_at_edge);
+                    judgement.leaks += 1;
                 } else if plane.surface == self.floor
                     && self.is_under_a_box(state.intersection_point().as_dvec3())
                 {
