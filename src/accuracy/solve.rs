@@ -295,7 +295,7 @@ mod tests {
     /// N2 the other way round: gathered on the facets it hits, instead of sent from those first hit. What the two share
     /// is visibility and the closed form factor; points, cuts and the quadrature differ.
     #[test]
-    #[ignore = "minutes of processor time"]
+    #[ignore = "a minute of processor time"]
     fn second_hits_gathered_are_those_sent() {
         let (facets, emitters) = handout();
         let scene = Scene::new(&facets, &emitters);
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "minutes of processor time"]
+    #[ignore = "a minute of processor time"]
     fn third_hits_have_the_known_digits() {
         let (facets, emitters) = handout();
         let full = Settings::of(Accuracy::Full);
