@@ -398,6 +398,40 @@ fn the_command_line_grades_pictures() {
 }
 
 #[test]
+fn a_list_and_a_picture_of_one_student() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = support::reference_csv(folder.path(), 200_000);
+    let text = fs::read_to_string(&list).expect("it is there");
+    let all = expectations();
+    let checks = |grade: &Value| -> Vec<String> {
+        let findings = grade["findings"].as_array().expect("there are some");
+        findings.iter().map(|f| f["check"].as_str().expect("it has a name").to_owned()).collect()
+    };
+    let seed = photon_mapping::assignment8::SEED;
+    for (seed, is_together) in [(seed, true), (seed + 1, false)] {
+        let student = at(&format!("student-{seed}"));
+        fs::create_dir(&student).expect("it can be made");
+        fs::write(student.join("photons.csv"), &text).expect("it can be written");
+        let red = simulate(Variation::default(), seed, 200_000, 0.0);
+        let picture = paint(&all.view, &red, framework_dot);
+        picture.save(student.join("picture.png")).expect("it can be written");
+        let graded = grade(&student, " --emitted 200000");
+        assert_eq!(graded["verdict"], "correct", "{graded:#}");
+        assert_eq!(!checks(&graded).contains(&"list and picture".to_owned()), is_together);
+        // A list that cannot be read leaves the picture.
+        fs::write(student.join("photons.csv"), "x;why\n1;2\n").expect("it can be written");
+        let graded = grade(&student, " --emitted 200000");
+        assert_eq!((&graded["verdict"], &graded["score"]), (&"correct".into(), &4.0.into()));
+        assert!(checks(&graded).contains(&"photon list".to_owned()), "{graded:#}");
+        fs::write(student.join("picture.png"), b"\xff\xd8\xff").expect("it can be written");
+        let graded = grade(&student, "");
+        assert_eq!(graded["verdict"], "unreadable", "{graded:#}");
+        assert_eq!(checks(&graded), ["readable", "photon list"]);
+    }
+}
+
+#[test]
 fn a_picture_is_known_by_its_bytes() {
     let folder = folder();
     let red = simulate(Variation::default(), 41, MILLION, 0.0);
