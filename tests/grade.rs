@@ -68,20 +68,22 @@ fn what_a_class_hands_in() {
     write(at("nested/.DS_Store"), &list);
     paths.push(at("nested"));
     write(at("two/a.csv"), &list);
-    write(at("two/b.csv"), &list);
+    write(at("two/b.csv"), list.clone() + "1,2,3\n");
+    write(at("same/a.csv"), &list);
+    write(at("same/b.csv"), &list);
     paths.push(at("two"));
+    paths.push(at("same"));
     write(at("usual/photons.csv"), &list);
     write(at("usual/earlier.csv"), "x,y,z\n");
     paths.push(at("usual"));
     write(at("pictures/photons.csv"), &list);
     write(at("pictures/1.png"), png);
-    write(at("pictures/2.png"), png);
+    write(at("pictures/2.png"), b"\x89PNG\r\n\x1a\nother");
     paths.push(at("pictures"));
     write(at("broken/photons.csv"), "x;why\n1;2\n");
     paths.push(at("broken"));
     fs::create_dir(at("empty")).unwrap();
     paths.push(at("empty"));
-    paths.push(at("missing.csv"));
     paths.push(at("alone.csv"));
     let grades = grades(&paths, &["--emitted", "60000"]);
     let expected = [
@@ -89,11 +91,15 @@ fn what_a_class_hands_in() {
         ("alone.csv", "correct", None),
         ("nested", "correct", None),
         ("two", "unreadable", Some(("readable", "2 photon lists in it (a.csv, b.csv)"))),
-        ("usual", "correct", None),
+        (
+            "same",
+            "correct",
+            Some(("files", "a.csv is judged, and left out: b.csv, which is the same")),
+        ),
+        ("usual", "correct", Some(("files", "photons.csv is judged, and left out: earlier.csv"))),
         ("pictures", "correct", Some(("files", "2 pictures in it (1.png, 2.png)"))),
         ("broken", "unreadable", Some(("readable", "line 1: expected the columns x, y and z"))),
         ("empty", "unreadable", Some(("readable", "neither a photon list nor a picture"))),
-        ("missing.csv", "unreadable", Some(("readable", "cannot be read: No such file"))),
         ("alone.csv (2)", "correct", None),
     ];
     assert_eq!(grades.len(), expected.len());
@@ -106,6 +112,52 @@ fn what_a_class_hands_in() {
     }
     let stored = load_at_most(&at("alone.csv"), 100_000).unwrap().0.records.len();
     assert!(grades.iter().all(|grade| grade["stored"].is_null() || grade["stored"] == stored));
+}
+
+#[test]
+fn a_folder_of_students_is_a_class() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let list = csv();
+    write(at("class/alice/out/photons.csv"), &list);
+    write(at("class/bob/mine.csv"), list.clone() + "\n");
+    write(at("class/carol/main.cpp"), "int main() {}\n");
+    write(at("class/dave/photons.csv"), &list);
+    write(at("class/erin/photons.csv.gz"), b"\x1f\x8b\x08\0");
+    write(at("class/roster.txt"), "alice\n");
+    let grades = grades(&[at("class")], &["--emitted", "60000"]);
+    let expected = [
+        ("alice", "correct", "files", "the same, byte by byte, as that of"),
+        ("bob", "correct", "", ""),
+        ("carol", "unreadable", "readable", "neither a photon list nor a picture"),
+        ("dave", "correct", "files", "class/alice"),
+        ("erin", "unreadable", "readable", "photons.csv.gz is packed (gzip): unpack it first"),
+    ];
+    assert_eq!(grades.len(), expected.len());
+    for (grade, (name, verdict, check, part)) in grades.iter().zip(expected) {
+        assert_eq!(grade["submission"], at("class").join(name).display().to_string());
+        assert_eq!(grade["verdict"], verdict, "{grade:#}");
+        if check.is_empty() {
+            let findings = grade["findings"].as_array().unwrap();
+            assert!(findings.iter().all(|finding| finding["check"] != "files"), "{grade:#}");
+        } else {
+            assert!(found(grade, check).contains(part), "{grade:#}");
+        }
+    }
+}
+
+#[test]
+fn a_mistyped_path_is_no_students_fault() {
+    let folder = folder();
+    let (list, missing) =
+        (write(folder.path().join("list.csv"), csv()), folder.path().join("lits"));
+    let assert = support::run_line("grade --format json {} {}", &[&missing, &list]).code(2);
+    let error = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(error.contains("lits: no such file") && error.lines().count() == 1, "{error}");
+    let grades = json(assert);
+    assert_eq!(grades.as_array().unwrap().len(), 1);
+    assert_eq!(grades[0]["verdict"], "correct");
+    fails("grade {}", &[&missing], &["lits: no such file"]);
 }
 
 #[cfg(unix)]
@@ -314,6 +366,9 @@ fn a_policy_sets_the_scores() {
         (r#"{ "misreadings": { "off": 1 } }"#, &["'off'", "no-offset", "cube-directions"]),
         (r#"{ "correct": "4" }"#, &["policy.json", "expected f64"]),
         ("", &["policy.json"]),
+        ("[]", &["policy.json", "sequence"]),
+        (r#"{ "no-dots": -1 }"#, &["policy.json", "'no-dots' is -1", "from 0 to 'correct', 4"]),
+        (r#"{ "misreadings": { "no-offset": 5 } }"#, &["'no-offset' is 5"]),
     ] {
         fs::write(&policy, text).unwrap();
         fails("grade --policy {} {}", &[&policy, &list], parts);

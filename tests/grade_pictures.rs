@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use image::{DynamicImage, Rgb, RgbImage, imageops};
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::grading::hypotheses::fair_readings;
+use photon_mapping::grading::picture::dot_size::DotSize;
 use photon_mapping::grading::picture::dots::{Dots, find_dots};
 use photon_mapping::grading::picture::expectations::PictureExpectations;
 use photon_mapping::grading::picture::expected::Expected;
@@ -19,7 +20,7 @@ use photon_mapping::grading::picture::signature::measure;
 use photon_mapping::grading::picture::trials::{misread, simulate_dots};
 use photon_mapping::grading::picture::view::{PIXELS, View};
 use photon_mapping::grading::places::Places;
-use photon_mapping::grading::variation::Variation;
+use photon_mapping::grading::variation::{Hemisphere, Roulette, Variation};
 use serde_json::Value;
 use support::{folder, json, run_line};
 
@@ -256,10 +257,79 @@ fn other_direct_light_is_seen_through() {
     let dots = dots_of(&bright).expect("it is the view, with a gamma");
     assert!(dots.red == red && dots.remarks[0].found.contains("gamma"), "{:?}", dots.remarks);
 
+    for factor in [0.8, 0.9, 1.1, 1.25] {
+        let mut scaled = plain.clone();
+        for channel in scaled.pixels_mut().flat_map(|pixel| &mut pixel.0) {
+            *channel = (factor * f64::from(*channel)).round().min(255.0) as u8;
+        }
+        let dots = dots_of(&scaled).expect("it is the view, darker or brighter");
+        assert!(dots.red == red, "{factor}: other pixels");
+        assert!(dots.remarks[0].found.contains("brightness"), "{:?}", dots.remarks);
+    }
+    // Red alone made brighter is no dot all over.
+    let mut warm = plain.clone();
+    warm.pixels_mut().for_each(|pixel| pixel.0[0] = pixel.0[0].saturating_add(pixel.0[0] / 4));
+    assert!(dots_of(&warm).is_err());
+
     let mut dark = RgbImage::new(640, 480);
     dark.pixels_mut().zip(&red).filter(|(_, red)| **red).for_each(|(p, _)| *p = Rgb([255, 0, 0]));
     let dots = dots_of(&dark).expect("dots over nothing");
     assert!(dots.red == red && dots.remarks[0].check == "direct light", "{:?}", dots.remarks);
+}
+
+#[test]
+fn dots_that_are_too_large_are_told_and_not_judged() {
+    let view = &expectations().view;
+    for (seed, emitted) in [(42, 20_000), (43, MILLION), (44, 5 * MILLION)] {
+        let red = simulate(Variation::default(), seed, emitted, 0.0);
+        assert!(!DotSize::new(&red, view).expect("there are enough").is_too_large(), "{emitted}");
+        // Three pixels a side.
+        let mut large = red.clone();
+        for (at, _) in red.iter().enumerate().filter(|(_, is_red)| **is_red) {
+            for other in
+                [at + 1, at + 2, at + 640, at + 641, at + 642, at + 1280, at + 1281, at + 1282]
+            {
+                large[other.min(PIXELS - 1)] = true;
+            }
+        }
+        let size = DotSize::new(&large, view).expect("there are enough");
+        assert!(size.is_too_large(), "{emitted}");
+        // Those that were two wide are four now.
+        let extent = size.extent();
+        assert!(extent.iter().all(|side| (3..=4).contains(side)), "{emitted}: {extent:?}");
+        assert!(size.reason().contains("too large, up to"), "{emitted}: {}", size.reason());
+    }
+    let hypothesis = misread("direct-stored", 0).expect("it is known");
+    let red = simulate(hypothesis.variation, 45, MILLION, 0.0);
+    assert!(!DotSize::new(&red, view).expect("there are enough").is_too_large());
+}
+
+#[test]
+fn two_misreadings_at_once_are_not_one() {
+    let roulette = |roulette| Variation { roulette, ..Variation::default() };
+    let cases = [
+        Variation { hemisphere: Hemisphere::NoSquareRoot, ..roulette(Roulette::Mean) },
+        Variation { hemisphere: Hemisphere::Uniform, ..roulette(Roulette::Mean) },
+        Variation { cube_directions: true, ..roulette(Roulette::Red) },
+    ];
+    for (at, variation) in cases.into_iter().enumerate() {
+        let red = simulate(variation, 90, MILLION, 0.0);
+        for emitted in [Some(MILLION), None] {
+            let judgement = judge(&red, emitted);
+            assert!(judgement.is_incorrect(), "{at}: {judgement:?}");
+            assert_eq!(named(&judgement), None, "{at}: {judgement:?}");
+        }
+    }
+    // What hides behind a misreading shows in the number alone.
+    let of_number = |variation| {
+        let judgement = judge(&simulate(variation, 91, MILLION, 0.0), None);
+        assert_eq!(named(&judgement), Some("red-roulette"), "{judgement:?}");
+        let finding = judgement.findings.iter().find(|finding| finding.check == "photons sent out");
+        finding.expect("the number is told").passed
+    };
+    assert!(of_number(roulette(Roulette::Red)));
+    let hemisphere = Hemisphere::NoSquareRoot;
+    assert!(!of_number(Variation { hemisphere, ..roulette(Roulette::Red) }));
 }
 
 #[test]
@@ -325,6 +395,40 @@ fn the_command_line_grades_pictures() {
     expectations().view.direct.save(&none).expect("it can be written");
     let grade = grade(&none, "");
     assert_eq!((&grade["verdict"], &grade["score"]), (&"no-dots".into(), &1.0.into()));
+}
+
+#[test]
+fn a_list_and_a_picture_of_one_student() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = support::reference_csv(folder.path(), 200_000);
+    let text = fs::read_to_string(&list).expect("it is there");
+    let all = expectations();
+    let checks = |grade: &Value| -> Vec<String> {
+        let findings = grade["findings"].as_array().expect("there are some");
+        findings.iter().map(|f| f["check"].as_str().expect("it has a name").to_owned()).collect()
+    };
+    let seed = photon_mapping::assignment8::SEED;
+    for (seed, is_together) in [(seed, true), (seed + 1, false)] {
+        let student = at(&format!("student-{seed}"));
+        fs::create_dir(&student).expect("it can be made");
+        fs::write(student.join("photons.csv"), &text).expect("it can be written");
+        let red = simulate(Variation::default(), seed, 200_000, 0.0);
+        let picture = paint(&all.view, &red, framework_dot);
+        picture.save(student.join("picture.png")).expect("it can be written");
+        let graded = grade(&student, " --emitted 200000");
+        assert_eq!(graded["verdict"], "correct", "{graded:#}");
+        assert_eq!(!checks(&graded).contains(&"list and picture".to_owned()), is_together);
+        // A list that cannot be read leaves the picture.
+        fs::write(student.join("photons.csv"), "x;why\n1;2\n").expect("it can be written");
+        let graded = grade(&student, " --emitted 200000");
+        assert_eq!((&graded["verdict"], &graded["score"]), (&"correct".into(), &4.0.into()));
+        assert!(checks(&graded).contains(&"photon list".to_owned()), "{graded:#}");
+        fs::write(student.join("picture.png"), b"\xff\xd8\xff").expect("it can be written");
+        let graded = grade(&student, "");
+        assert_eq!(graded["verdict"], "unreadable", "{graded:#}");
+        assert_eq!(checks(&graded), ["readable", "photon list"]);
+    }
 }
 
 #[test]

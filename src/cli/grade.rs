@@ -36,8 +36,15 @@ const LONGEST_NAME: usize = 100;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Submissions: a file is one, and so is a folder, in which the list and the picture are found by what \
-they contain; alice.csv and alice.png are one. What is wrong with a file is in its grade, and stops \
-no other.
+they contain; alice.csv and alice.png are one. A folder without a list or a picture of its own, but with \
+at least two folders that have one, is a class: each folder in it is a submission. What is wrong with a \
+file is in its grade, and stops no other.
+
+Of several lists or pictures in one folder, that called photons or assignment8 is judged, or any if all \
+are the same, and what is left out is remarked; else they are not judged.
+
+A SUBMISSION that does not exist is no student's fault: the others are graded, then it is named, with \
+exit code 2.
 
 Several submissions: text and JSON go to one output; gradescope and html write a file for each into \
 the folder --out, html also an index.html.
@@ -108,8 +115,13 @@ impl FormatName {
 pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     let settings =
         Settings { emitted: arguments.emitted, seed: arguments.seed, policy: policy(arguments)? };
-    let handed_in = collect(&arguments.submissions);
-    let folder = folder(arguments, handed_in.len())?;
+    let (missing, there): (Vec<PathBuf>, Vec<PathBuf>) =
+        arguments.submissions.iter().cloned().partition(|path| is_missing(path));
+    if there.is_empty() {
+        return Err(no_such_file(&missing));
+    }
+    let handed_in = collect(&there);
+    let folder = folder(arguments, handed_in.len() + missing.len())?;
     let expectations = expectations(arguments.max_bounces);
     let best = settings.policy.best();
     let pages = Pages::new(&expectations, &settings.policy);
@@ -144,7 +156,7 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
         (FormatName::Text, grades) => {
             grades.iter().map(|grade| text::text(grade, best)).collect::<Vec<_>>().join("\n")
         }
-        (FormatName::Json, [grade]) => json(grade),
+        (FormatName::Json, [grade]) if missing.is_empty() => json(grade),
         (FormatName::Json, grades) => json(&grades),
         (FormatName::Gradescope | FormatName::Html, _) => outputs.pop().unwrap_or_default(),
     };
@@ -159,7 +171,17 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
         (None, Some(path)) => write(path, &output)?,
         (None, None) => print(&output)?,
     }
-    Ok(0)
+    if missing.is_empty() { Ok(0) } else { Err(no_such_file(&missing)) }
+}
+
+/// Whether there is nothing at all at `path`: a link that leads nowhere is something.
+fn is_missing(path: &Path) -> bool {
+    path.symlink_metadata().is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound)
+}
+
+fn no_such_file(missing: &[PathBuf]) -> CliError {
+    let names: Vec<String> = missing.iter().map(|path| path.display().to_string()).collect();
+    CliError::Argument(format!("{}: no such file or folder", names.join(", ")))
 }
 
 fn json(value: &impl Serialize) -> String {
@@ -244,7 +266,17 @@ fn policy(arguments: &GradeArgs) -> Result<Policy, CliError> {
         CliError::Argument(format!("{}: expected a policy: {message}", path.display()))
     };
     let text = std::fs::read_to_string(path).map_err(|error| CliError::unreadable(path, error))?;
-    let policy: Policy = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+    // Without this, an array would be taken for the scores in their order.
+    let object: serde_json::Map<String, serde_json::Value> =
+        serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+    let policy: Policy =
+        serde_json::from_value(object.into()).map_err(|error| wrong(error.to_string()))?;
+    if let Some((name, score)) = policy.odd_score() {
+        let best = policy.correct;
+        return Err(wrong(format!(
+            "'{name}' is {score}, which is not from 0 to 'correct', {best}"
+        )));
+    }
     let mut known: Vec<&str> = misreadings().iter().map(|hypothesis| hypothesis.id).collect();
     known.push("no-offset");
     known.sort_unstable();

@@ -5,6 +5,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest, Sha256};
+
 use super::submission::Submission;
 use super::text::printable;
 use crate::photon_list::reader::starts_like_a_list;
@@ -12,6 +14,8 @@ use crate::photon_list::reader::starts_like_a_list;
 /// A student's folder that has more in it is none.
 const MOST_ENTRIES: usize = 10_000;
 const MOST_LEVELS: usize = 6;
+/// Larger files are not held against each other.
+const MOST_COMPARED: u64 = 1 << 28;
 /// How pictures start: PNG, JPEG, GIF, BMP, TIFF, WebP, and the framework's own PPM.
 const PICTURES: [&[u8]; 9] = [
     b"\x89PNG\r\n\x1a\n",
@@ -25,6 +29,17 @@ const PICTURES: [&[u8]; 9] = [
     b"P3",
 ];
 
+/// How packed files start, and what they are.
+const PACKED: [(&[u8], &str); 7] = [
+    (b"\x1f\x8b", "gzip"),
+    (b"PK\x03\x04", "zip"),
+    (b"\xfd7zXZ\0", "xz"),
+    (b"7z\xbc\xaf\x27\x1c", "7-Zip"),
+    (b"Rar!", "RAR"),
+    (b"BZh", "bzip2"),
+    (b"\x28\xb5\x2f\xfd", "Zstandard"),
+];
+
 /// A submission, and what there is to say about its files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HandedIn {
@@ -36,18 +51,20 @@ pub struct HandedIn {
     pub notes: Vec<String>,
 }
 
-/// The submissions named by `paths`, in that order: a folder is one, a file is one, and a list and a
-/// picture that differ in the extension alone are one.
+/// The submissions named by `paths`, in that order: a student's folder is one, a file is one, a list and a
+/// picture that differ in the extension alone are one, and a class's folder has one in each folder in it.
 pub fn collect(paths: &[PathBuf]) -> Vec<HandedIn> {
     let mut all: Vec<HandedIn> = Vec::new();
-    for path in paths {
+    let students = |path: &PathBuf| students(path).unwrap_or_else(|| vec![path.clone()]);
+    let paths: Vec<PathBuf> = paths.iter().flat_map(students).collect();
+    for path in &paths {
         let handed_in = if path.is_dir() { from_folder(path) } else { from_file(path) };
         all.push(HandedIn {
             submission: Submission { name: name(path), ..handed_in.submission },
             ..handed_in
         });
     }
-    join_stems(&mut all, paths);
+    join_stems(&mut all, &paths);
     let mut seen: HashMap<String, usize> = HashMap::new();
     for handed_in in &mut all {
         let times = seen.entry(handed_in.submission.name.clone()).or_default();
@@ -56,7 +73,103 @@ pub fn collect(paths: &[PathBuf]) -> Vec<HandedIn> {
             handed_in.submission.name += &format!(" ({times})");
         }
     }
+    tell_twins(&mut all);
     all
+}
+
+/// The folders of a class's students, if `folder` is that of a class: it has no list or picture itself, but
+/// at least two folders in it have one. What they lack is said in each one's grade.
+fn students(folder: &Path) -> Option<Vec<PathBuf>> {
+    let mut folders = Vec::new();
+    for entry in fs::read_dir(folder).ok()? {
+        let entry = entry.ok()?;
+        let (path, kind) = (entry.path(), entry.file_type().ok()?);
+        if entry.file_name().to_string_lossy().starts_with('.') {
+            continue;
+        }
+        if kind.is_dir() {
+            folders.push(path);
+        } else if kind.is_file() {
+            let is_list = is_called_a_list(&path) || starts_like_a_list(&path).unwrap_or_default();
+            if is_list || is_picture(&path).unwrap_or_default() {
+                return None;
+            }
+        }
+    }
+    folders.sort();
+    let has_files = |folder: &&PathBuf| {
+        let Submission { list, picture, .. } = from_folder(folder).submission;
+        list.is_some() || picture.is_some()
+    };
+    (folders.iter().filter(has_files).take(2).count() == 2).then_some(folders)
+}
+
+fn is_called_a_list(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "csv" || extension == "ply")
+}
+
+/// Notes submissions whose files are the same, byte by byte.
+fn tell_twins(all: &mut [HandedIn]) {
+    for is_list in [true, false] {
+        let file = |handed_in: &HandedIn| {
+            let Submission { list, picture, .. } = &handed_in.submission;
+            if is_list { list.clone() } else { picture.clone() }
+        };
+        let files: Vec<Option<PathBuf>> = all.iter().map(file).collect();
+        let mut of_contents: HashMap<Contents, Vec<usize>> = HashMap::new();
+        for (at, contents) in contents(&files).into_iter().enumerate() {
+            if let Some(contents) = contents {
+                of_contents.entry(contents).or_default().push(at);
+            }
+        }
+        for twins in of_contents.values().filter(|twins| twins.len() > 1) {
+            for at in twins {
+                // A file that is named twice is no twin of itself.
+                let is_other = |other: &&usize| *other != at && files[**other] != files[*at];
+                let names = twins.iter().filter(is_other).take(5);
+                let names: Vec<_> =
+                    names.map(|other| all[*other].submission.name.clone()).collect();
+                if !names.is_empty() {
+                    let what = if is_list { "photon list" } else { "picture" };
+                    all[*at].notes.push(format!(
+                        "the {what} is the same, byte by byte, as that of {}; two right programs with \
+                         the same random numbers may write the same",
+                        names.join(", ")
+                    ));
+                }
+            }
+        }
+    }
+}
+
+/// How many bytes a file has, and their SHA-256.
+type Contents = (u64, [u8; 32]);
+
+/// The contents of those `files` that are as long as another one: no others can be the same.
+fn contents(files: &[Option<PathBuf>]) -> Vec<Option<Contents>> {
+    let length = |file: &Option<PathBuf>| Some(fs::metadata(file.as_ref()?).ok()?.len());
+    let lengths: Vec<Option<u64>> = files.iter().map(length).collect();
+    let contents = |at: usize| {
+        let length = lengths[at].filter(|length| *length <= MOST_COMPARED)?;
+        let is_alone = lengths.iter().filter(|other| **other == Some(length)).count() == 1;
+        if is_alone {
+            return None;
+        }
+        let mut hash = Sha256::new();
+        let file = File::open(files[at].as_ref()?).ok()?;
+        let mut input = io::BufReader::with_capacity(1 << 16, file.take(MOST_COMPARED));
+        loop {
+            let bytes = io::BufRead::fill_buf(&mut input).ok()?;
+            if bytes.is_empty() {
+                break;
+            }
+            hash.update(bytes);
+            let read = bytes.len();
+            io::BufRead::consume(&mut input, read);
+        }
+        Some((length, hash.finalize().into()))
+    };
+    (0..files.len()).map(contents).collect()
 }
 
 fn name(path: &Path) -> String {
@@ -78,6 +191,10 @@ fn from_file(path: &Path) -> HandedIn {
         handed_in.problem = Some("it is neither a file nor a folder".to_owned());
         return handed_in;
     }
+    if let Ok(Some(kind)) = packed(path) {
+        handed_in.problem = Some(format!("it is packed ({kind}): unpack it first"));
+        return handed_in;
+    }
     match is_picture(path) {
         Ok(true) => handed_in.submission.picture = Some(path.to_owned()),
         Ok(false) => handed_in.submission.list = Some(path.to_owned()),
@@ -86,9 +203,20 @@ fn from_file(path: &Path) -> HandedIn {
     handed_in
 }
 
-fn is_picture(path: &Path) -> io::Result<bool> {
+fn start(path: &Path) -> io::Result<Vec<u8>> {
     let mut start = Vec::new();
     File::open(path)?.take(16).read_to_end(&mut start)?;
+    Ok(start)
+}
+
+/// What a file is packed with, if it is.
+fn packed(path: &Path) -> io::Result<Option<&'static str>> {
+    let start = start(path)?;
+    Ok(PACKED.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind))
+}
+
+fn is_picture(path: &Path) -> io::Result<bool> {
+    let start = start(path)?;
     Ok(PICTURES.iter().any(|magic| start.starts_with(magic)))
 }
 
@@ -145,8 +273,10 @@ fn from_folder(folder: &Path) -> HandedIn {
         // Its reader says what is wrong with it.
         found.lists = found.would_be_lists;
     }
-    match (choice("photon lists", found.lists, folder), choice("pictures", found.pictures, folder))
-    {
+    let notes = &mut handed_in.notes;
+    let list = choice("photon lists", found.lists, folder, notes);
+    let picture = choice("pictures", found.pictures, folder, notes);
+    match (list, picture) {
         (Ok(None), Ok(None)) => {
             let mut problem = "it has neither a photon list nor a picture in it".to_owned();
             handed_in.notes.iter().for_each(|note| problem += &format!("; {note}"));
@@ -164,25 +294,47 @@ fn from_folder(folder: &Path) -> HandedIn {
     handed_in
 }
 
-/// The one of several `files` that is meant: the one called as this program and the handout call it.
-fn choice(what: &str, mut files: Vec<PathBuf>, folder: &Path) -> Result<Option<PathBuf>, String> {
-    if files.len() > 1 {
-        let is_usual = |path: &&PathBuf| {
-            let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
-            ["photons", "assignment8"].contains(&stem)
-        };
-        let usual: Vec<PathBuf> = files.iter().filter(is_usual).cloned().collect();
-        if usual.len() != 1 {
-            let names: Vec<String> =
-                files.iter().take(5).map(|path| within(path, folder)).collect();
-            let (names, all) = (names.join(", "), files.len());
-            return Err(format!(
-                "there are {all} {what} in it ({names}), of which one is expected"
-            ));
-        }
-        files = usual;
+/// The one of several `files` that is meant: any, if they are all the same, else the one called as this
+/// program and the handout call it. What is left out is noted.
+fn choice(
+    what: &str,
+    mut files: Vec<PathBuf>,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Option<PathBuf>, String> {
+    if files.len() < 2 {
+        return Ok(files.pop());
     }
-    Ok(files.pop())
+    let names = |files: &[PathBuf]| -> String {
+        let names: Vec<String> = files.iter().take(5).map(|path| within(path, folder)).collect();
+        names.join(", ")
+    };
+    let all: Vec<Option<PathBuf>> = files.iter().cloned().map(Some).collect();
+    let contents = contents(&all);
+    let is_usual = |path: &PathBuf| {
+        let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        ["photons", "assignment8"].contains(&stem)
+    };
+    let is_same = contents[0].is_some() && contents.iter().all(|other| *other == contents[0]);
+    let chosen = match files.iter().filter(|path| is_usual(path)).count() {
+        1 => files.iter().position(is_usual),
+        _ => is_same.then_some(0),
+    };
+    let Some(chosen) = chosen else {
+        let (names, all) = (names(&files), files.len());
+        return Err(format!(
+            "there are {all} {what} in it ({names}), of which one is expected, or one of them called \
+             photons or assignment8"
+        ));
+    };
+    let chosen = files.remove(chosen);
+    let same = if is_same { ", which is the same" } else { "" };
+    notes.push(format!(
+        "of several {what}, {} is judged, and left out: {}{same}",
+        within(&chosen, folder),
+        names(&files)
+    ));
+    Ok(Some(chosen))
 }
 
 fn within(path: &Path, folder: &Path) -> String {
@@ -219,12 +371,13 @@ fn look_into(folder: &Path, root: &Path, level: usize, found: &mut Found) -> io:
             look_into(&path, root, level + 1, found)?;
         } else if !kind.is_file() {
             found.notes.push(format!("{name} is neither a file nor a folder"));
+        } else if let Some(kind) = packed(&path)? {
+            found.notes.push(format!("{name} is packed ({kind}): unpack it first"));
         } else if is_picture(&path)? {
             found.pictures.push(path);
         } else if starts_like_a_list(&path)? {
             found.lists.push(path);
-        } else if path.extension().is_some_and(|extension| extension == "csv" || extension == "ply")
-        {
+        } else if is_called_a_list(&path) {
             found.would_be_lists.push(path);
         }
     }

@@ -54,6 +54,20 @@ impl Policy {
         }
     }
 
+    /// A score, with its name, that is below none or above that for a correct submission.
+    pub fn odd_score(&self) -> Option<(&str, f64)> {
+        let named = [
+            ("correct", self.correct),
+            ("plausible", self.plausible),
+            ("incorrect", self.incorrect),
+            ("no-dots", self.no_dots),
+            ("unreadable", self.unreadable),
+        ];
+        let misreadings = self.misreadings.iter().map(|(id, score)| (id.as_str(), *score));
+        let mut all = named.into_iter().chain(misreadings);
+        all.find(|(_, score)| !(0.0..=self.correct).contains(score))
+    }
+
     /// The highest score.
     pub fn best(&self) -> f64 {
         let others = [self.plausible, self.incorrect, self.no_dots, self.unreadable];

@@ -6,7 +6,10 @@ use super::axes;
 use super::exact::exact_comparison;
 use super::judge_list::{Expectations, Judgement, judge};
 use super::observation::observe;
+use super::picture::dots::find_dots;
 use super::picture::judge_picture;
+use super::picture::reading::read_picture;
+use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
 use super::verdict::{Finding, Grade, Verdict, Weight};
@@ -17,6 +20,11 @@ use crate::photon_list::reader::{self, PhotonList};
 /// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with ten
 /// million photons and every mistake at once has fewer than this.
 pub const MOST_RECORDS: usize = 5_000_000;
+
+/// A list and a picture of one run have more than this part of their red pixels in common.
+const TOGETHER: f64 = 0.5;
+/// Of fewer red pixels, it is not said that they do not.
+const FEWEST_DOTS: f64 = 100.0;
 
 /// What one student handed in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -77,6 +85,18 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
             unreadable(submission, settings, &format!("it cannot be read: {source}"))
         }
     };
+    if let (Some(picture), Verdict::Unreadable) = (&submission.picture, graded.grade.verdict) {
+        let of_list = graded.grade.findings.remove(0);
+        let mut of_picture = grade_picture(submission, picture, settings, expectations);
+        // Where the picture says nothing either, both reasons do.
+        let weight = match of_picture.grade.verdict {
+            Verdict::Unreadable => Weight::Grave,
+            _ => Weight::Remark,
+        };
+        let of_list = Finding { check: "photon list", weight, ..of_list };
+        of_picture.grade.findings.push(of_list);
+        return of_picture;
+    }
     if let Some(picture) = &submission.picture {
         let emitted = settings.emitted.map(|emitted| emitted as f64);
         let findings = match judge_picture(picture, emitted, expectations.pictures()) {
@@ -87,6 +107,9 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         let remarks =
             findings.into_iter().map(|finding| Finding { weight: Weight::Remark, ..finding });
         graded.grade.findings.extend(remarks);
+        if let Some((list, _)) = &graded.list {
+            graded.grade.findings.extend(apart(list, picture, expectations));
+        }
     }
     graded
 }
@@ -123,6 +146,35 @@ fn grade_picture(
         findings: judgement.findings.clone(),
     };
     Graded { grade, list: None }
+}
+
+/// A remark, if the dots of `picture` are not the photons of `list`.
+fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Option<Finding> {
+    let expectations = expectations.pictures();
+    let picture = read_picture(picture).ok()?;
+    let dots = find_dots(&picture, &expectations.view, || expectations.shifted()).ok()?;
+    let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
+    let mut of_list = vec![false; PIXELS];
+    for record in &list.records {
+        view.for_each_pixel_of(record.position, |pixel| of_list[pixel] = true);
+    }
+    let inside = |pixel: &usize| view.patch(*pixel).is_some();
+    let count = |is_counted: &dyn Fn(usize) -> bool| {
+        (0..PIXELS).filter(inside).filter(|pixel| is_counted(*pixel)).count() as f64
+    };
+    let both = count(&|pixel| dots.red[pixel] && of_list[pixel]);
+    let [of_picture, of_list] = [count(&|pixel| dots.red[pixel]), count(&|pixel| of_list[pixel])];
+    let least = of_picture.min(of_list);
+    let fewer = (of_picture / of_list).min(of_list / of_picture);
+    if least < FEWEST_DOTS || (both > TOGETHER * least && fewer > TOGETHER) {
+        return None;
+    }
+    let found = format!(
+        "of {of_picture:.0} red pixels of the picture and {of_list:.0} of the list's photons, {both:.0} are \
+         the same"
+    );
+    let advice = "Hand in the list and the picture of one run: the list is what is graded.";
+    Some(remark("list and picture", "dots where the list's photons are", &found, advice))
 }
 
 /// A finding that costs nothing.

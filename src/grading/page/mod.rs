@@ -263,6 +263,19 @@ impl<'a> Pages<'a> {
                         }
                     }
                 }
+                @if has_directions(list) {
+                    section.facet {
+                        h3 { "Incoming directions" }
+                        p { "The cosine between the direction to the light and the normal, on all faces; what comes from behind has 0." }
+                        (PreEscaped(Histogram {
+                            what: "photons by cosine".to_owned(),
+                            ends: [0.0, 1.0],
+                            found: &found.cosines,
+                            expected: &expected.cosines,
+                            misread: misread.as_ref().map(|misread| &misread.cosines[..]),
+                        }.svg()))
+                    }
+                }
                 @if list.columns.bounce {
                     section.facet {
                         h3 { "Bounces" }
@@ -279,6 +292,12 @@ impl<'a> Pages<'a> {
             }
         }
     }
+}
+
+/// Whether directions to the light are given, and not one for all, as those of a ray that is never set.
+fn has_directions(list: &PhotonList) -> bool {
+    let directions = || list.records.iter().map(|record| record.to_light);
+    list.columns.to_light && directions().any(|direction| Some(direction) != directions().next())
 }
 
 fn advice_on_misreading(graded: &Graded) -> Option<&'static str> {

@@ -1,4 +1,4 @@
-//! How photons are spread along the two axes of every facet, and over bounces: finer than the cells that
+//! How photons are spread along the two axes of every facet, over bounces and over incoming directions: finer than the cells that
 //! are judged, for the eye.
 
 use std::ops::Range;
@@ -67,6 +67,8 @@ pub struct Profile {
     pub counts: Counts,
     /// By bounce, the first that is stored being the first.
     pub bounces: [f64; LAST_BOUNCE],
+    /// By the cosine between the direction to the light and the normal, of all facets together.
+    pub cosines: [f64; BINS],
 }
 
 impl Profile {
@@ -77,6 +79,7 @@ impl Profile {
             facets: vec![0.0; facets],
             counts: Counts::new(places),
             bounces: [0.0; LAST_BOUNCE],
+            cosines: [0.0; BINS],
         }
     }
 
@@ -92,6 +95,10 @@ impl Profile {
             profile.bounces[bounce.min(LAST_BOUNCE - 1)] += 1.0;
             let (Place::Cell { facet, .. } | Place::Corner { facet }) = place else { continue };
             profile.facets[facet] += 1.0;
+            if let Some(direction) = record.to_light.as_dvec3().try_normalize() {
+                let cosine = direction.dot(places.facets[facet].normal).max(0.0);
+                profile.cosines[((cosine * BINS as f64) as usize).min(BINS - 1)] += 1.0;
+            }
             let coordinates = places.facets[facet].coordinates(position);
             for axis in 0..2 {
                 let along = axes[facet][axis].ascending(coordinates[axis]);
@@ -131,6 +138,7 @@ impl Profile {
             .chain(self.along.iter_mut().flatten().flatten())
             .chain(&mut self.facets)
             .chain(&mut self.bounces)
+            .chain(&mut self.cosines)
     }
 
     fn add(&mut self, other: &Self) {

@@ -215,14 +215,39 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     if !rises || last.saturating_sub(first) < 64 || last >= 255 - LEAST_RAISE {
         return None;
     }
+    let expected =
+        |at: usize, channel: usize| along(&curve, usize::from(direct[at][channel])).unwrap_or(0);
     let is_off = |at: usize, channel: usize| {
-        let expected = curve[usize::from(direct[at][channel])];
-        expected.is_none_or(|expected| pixels[at][channel].abs_diff(expected) > ROUNDING_OF_CURVE)
+        pixels[at][channel].abs_diff(expected(at, channel)) > ROUNDING_OF_CURVE
     };
-    let astray = surface().filter(|at| is_off(*at, 1) || is_off(*at, 2)).count();
-    let red = (0..PIXELS).map(|at| view.shows_surface(at) && pixels[at][0] == 255).collect();
-    let found = "all colours changed by a curve, such as a gamma".to_owned();
+    let raised: Vec<usize> = surface()
+        .filter(|at| pixels[*at][0].saturating_sub(expected(*at, 0)) >= LEAST_RAISE)
+        .collect();
+    // The framework's dots are full of red, which the curve takes to one value.
+    let full = most_frequent(raised.iter().map(|at| pixels[*at][0])).unwrap_or(255);
+    let mut red = vec![false; PIXELS];
+    for at in raised {
+        red[at] = pixels[at][0].abs_diff(full) <= ROUNDING_OF_CURVE;
+    }
+    let is_astray = |at: &usize| is_off(*at, 1) || is_off(*at, 2) || (!red[*at] && is_off(*at, 0));
+    let astray = surface().filter(is_astray).count();
+    let found = "all colours changed by a curve, such as a gamma or a brightness".to_owned();
     Some(Attempt { red, astray, remark: Some(("direct light", found)) })
+}
+
+/// What `curve`, which is known at some values only, makes of `value`: between two that are known in
+/// proportion, beyond them all as far from the last as before.
+fn along(curve: &[Option<u8>], value: usize) -> Option<u8> {
+    let known = |at: usize| Some((at as f64, f64::from(curve[at]?)));
+    let below = (0..=value).rev().find_map(known);
+    let above = (value..curve.len()).find_map(known);
+    let value = value as f64;
+    let found = match (below, above) {
+        (Some(a), Some(b)) if b.0 > a.0 => a.1 + (b.1 - a.1) * (value - a.0) / (b.0 - a.0),
+        (Some(only), _) | (None, Some(only)) => only.1 + value - only.0,
+        (None, None) => return None,
+    };
+    Some(found.round().clamp(0.0, 255.0) as u8)
 }
 
 /// Why a picture cannot be taken apart.
@@ -240,7 +265,7 @@ fn reason(pixels: &[[u8; 3]], view: &View, astray: f64) -> String {
     if correlation > SAME_VIEW {
         format!(
             "it shows the handout's view, but {:.1} % of its pixels are neither direct light nor a dot, \
-             as after JPEG compression, resizing or a screenshot: {WANTED}",
+             as after JPEG compression, resizing, a change of colours or a screenshot: {WANTED}",
             100.0 * astray
         )
     } else {

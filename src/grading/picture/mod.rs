@@ -1,6 +1,7 @@
 //! The checks of a picture: are its dots where photons lie?
 
 pub mod coverage;
+pub mod dot_size;
 pub mod dots;
 pub mod expectations;
 pub mod expected;
@@ -13,6 +14,7 @@ mod words;
 
 use std::path::Path;
 
+use dot_size::DotSize;
 use dots::find_dots;
 use expectations::PictureExpectations;
 use judge::{PictureJudgement, judge_dots};
@@ -29,6 +31,9 @@ pub fn judge_picture(
     let picture = reading::read_picture(path)?;
     let dots = find_dots(&picture, &expectations.view, || expectations.shifted())?;
     let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
+    if let Some(size) = DotSize::new(&dots.red, view).filter(DotSize::is_too_large) {
+        return Err(size.reason());
+    }
     let mut judgement = judge_dots(&dots.red, view, emitted, expectations);
     judgement.findings.extend(dots.remarks);
     Ok(judgement)

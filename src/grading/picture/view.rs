@@ -71,6 +71,8 @@ pub struct View {
     /// The cells in sight, by their number in [`Places`].
     pub cells: Vec<usize>,
     facet_of_cell: Vec<usize>,
+    /// By facet in sight: the axis closest to its normal.
+    steepest: Vec<usize>,
     /// Overlapping pairs, by patches.
     pub overlaps: Vec<Overlap>,
     /// The direct light.
@@ -175,6 +177,8 @@ impl View {
         let points = seen.iter().map(point).collect();
         let mut facet_of_cell = vec![0; cells.len()];
         patches.iter().for_each(|patch| facet_of_cell[patch.cell] = patch.facet_in_sight);
+        let steepest = |facet: &usize| places.facets[*facet].normal.abs().max_position();
+        let steepest = facets.iter().map(steepest).collect();
         let overlaps = Vec::new();
         let mut view = Self {
             camera,
@@ -185,10 +189,11 @@ impl View {
             facets,
             cells,
             facet_of_cell,
+            steepest,
             overlaps,
             direct,
         };
-        view.overlaps = view.find_overlaps(places);
+        view.overlaps = view.find_overlaps();
         view
     }
 
@@ -231,13 +236,22 @@ impl View {
         }
     }
 
-    fn find_overlaps(&self, places: &Places) -> Vec<Overlap> {
+    /// The part of its facet in the cube around `pixel` that is in the one around `other`, too, where both
+    /// show the facet of `patch`.
+    pub fn share(&self, pixel: usize, other: usize, patch: usize) -> f64 {
         let edge = 2.0 * f64::from(PHOTON_DOT_RADIUS);
+        let apart = (self.points[pixel] - self.points[other]).as_dvec3().abs();
+        // Seen along the axis closest to the normal, it is a square.
+        let steepest = self.steepest[self.patches[patch].facet_in_sight];
+        let axes = (0..3).filter(|axis| *axis != steepest);
+        axes.map(|axis| (1.0 - apart[axis] / edge).max(0.0)).product()
+    }
+
+    fn find_overlaps(&self) -> Vec<Overlap> {
         let mut pairs: BTreeMap<[usize; 2], [u32; SHARES + 1]> = BTreeMap::new();
         for pixel in 0..PIXELS {
             let Some(patch) = self.patch(pixel) else { continue };
             let facet = self.patches[patch].facet_in_sight;
-            let normal = places.facets[self.facets[facet]].normal;
             let (column, row) =
                 ((pixel % WIDTH as usize) as isize, (pixel / WIDTH as usize) as isize);
             for down in -NEIGHBOURS..=NEIGHBOURS {
@@ -253,14 +267,7 @@ impl View {
                     if self.patches[other_patch].facet_in_sight != facet {
                         continue;
                     }
-                    let apart = (self.points[pixel] - self.points[other]).as_dvec3().abs();
-                    // The part of the facet in a cube, seen along the axis closest to the normal, is a
-                    // square.
-                    let steepest = normal.abs().max_position();
-                    let share: f64 = (0..3)
-                        .filter(|axis| *axis != steepest)
-                        .map(|axis| (1.0 - apart[axis] / edge).max(0.0))
-                        .product();
+                    let share = self.share(pixel, other, patch);
                     if share > 0.0 {
                         let at =
                             if other == pixel { SHARES } else { (share * SHARES as f64) as usize };

@@ -1,12 +1,16 @@
 //! What is said of a picture.
 
 use super::expected::Expected;
+use crate::assignment8::PHOTON_COUNT;
 use crate::compare::section::Section;
 use crate::grading::verdict::{Finding, Weight};
 
 /// The dots of a picture are too few for what the handout asks for when they fit fewer photons sent
 /// out than this.
 pub(super) const LEAST_EMITTED: f64 = 5000.0;
+
+/// By which part of itself a number of photons is not known from a picture.
+const NUMBER_LEEWAY: f64 = 0.06;
 
 /// What is to be done where no misreading explains a picture.
 pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it. Hand in the photon list: it \
@@ -108,7 +112,8 @@ pub(super) fn all_red() -> Finding {
             Weight::Grave,
             "A photon whose position is not a number is near every point. Look for a vector of length 0 \
              that is normalised: t where the normal is (-1, 0, 0), for which the absolute value of the \
-             dot product is to be compared.",
+             dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS may be far larger than \
+             0.003.",
         )
     }
 }
@@ -123,6 +128,33 @@ pub(super) fn enough(found: f64, fitted: f64) -> Finding {
         Weight::Fault,
         "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it sent \
          out fewer, grade with --emitted.",
+    )
+}
+
+/// With how many photons sent out a misreading explains the dots: the number is all that tells it from the
+/// same misreading with another one that changes little else.
+pub(super) fn number_under(id: &str, emitted: f64) -> Finding {
+    let close = (emitted / PHOTON_COUNT as f64 - 1.0).abs() < NUMBER_LEEWAY;
+    storage(
+        "photons sent out",
+        &format!("{PHOTON_COUNT}, as the framework sends out"),
+        format!("'{id}' explains the dots of about {:.0} photons", (emitted / 1e3).round() * 1e3),
+        close,
+        Weight::Remark,
+        "If yours sent out another number than this, there is another mistake, too: grade with --emitted.",
+    )
+}
+
+/// What a picture cannot tell when photons hit the triangle they leave.
+pub(super) fn self_hits() -> Finding {
+    storage(
+        "self-hits",
+        "none",
+        "how many there are depends on rounding, so another mistake may hide behind them"
+            .to_owned(),
+        false,
+        Weight::Remark,
+        "Mend the offset, and hand in again: the photon list tells more than a picture.",
     )
 }
 
