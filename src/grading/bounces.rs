@@ -46,7 +46,9 @@ pub fn bounce_findings(
             advice: if passed {
                 "".into()
             } else {
-                "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.".into()
+                "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0. If the limit was \
+                 meant to be another one, grade with --max-bounces."
+                    .into()
             },
         });
     }

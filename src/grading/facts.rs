@@ -9,11 +9,19 @@ use crate::compare::section::Section;
 
 /// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
 const MOST_REPEATED: f64 = 0.01;
+/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons sent out
+/// from all fair offsets, none was, and by chance, with six digits, it is one of ten million photons. A
+/// thousandth is left to programs that round more than the reference.
+const MOST_IDENTICAL: f64 = 1e-3;
+/// The part of scattered photons that come from where the light stands, within a thousandth of a radian: none
+/// of 500,896, since it is one in a million by the solid angle.
+const MOST_STRAIGHT: f64 = 1e-4;
 /// A stray photon or two is left to rounding.
 const MOST_ASTRAY: f64 = 5e-4;
-/// A list of photons without a count is too short for what the handout asks for when it fits fewer
-/// photons sent out than this.
-const LEAST_EMITTED: f64 = 5000.0;
+/// A list of photons without a count is shorter than what the handout asks for when it fits fewer photons sent
+/// out than this; with fewer than the second, what is stored is a dozen photons, which tell nothing.
+const FEW_EMITTED: f64 = 5000.0;
+const LEAST_EMITTED: f64 = 250.0;
 
 /// What can be said without statistics.
 pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
@@ -36,7 +44,12 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     let of_all = |count: f64, all: f64| format!("{count:.0} of {all:.0}");
     let (repeated, on_facets) = (observation.repeated, counts.on_surfaces());
     let surfaces = places.surfaces.len();
-    vec![
+    let is_repeated = repeated > (MOST_REPEATED * on_facets).max(2.0);
+    let identical = observation.identical.unwrap_or_default();
+    let is_identical = identical > (MOST_IDENTICAL * on_facets).max(2.0);
+    let (same, exactly) =
+        if is_identical && !is_repeated { (identical, "exactly ") } else { (repeated, "") };
+    let mut findings = vec![
         fact(
             "finite",
             transformation,
@@ -60,7 +73,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "footprints",
             transformation,
             "no photon lies on the floor beneath a box",
-            format!("{} do", of_all(counts.footprint, finite)),
+            format!("{} lie there", of_all(counts.footprint, finite)),
             counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
             Weight::Fault,
             "A photon got into a box: directions must be in the hemisphere over the normal, and the \
@@ -70,26 +83,39 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "same place",
             transformation,
             "hardly any two photons lie at the same place",
-            format!("{} lie where another one does", of_all(repeated, on_facets)),
-            repeated <= (MOST_REPEATED * on_facets).max(2.0),
+            format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
+            !is_repeated && !is_identical,
             Weight::Fault,
             "Scattered rays hit the triangle they leave: start them a little above the surface, or \
              check that no photon is inserted twice.",
         ),
-    ]
+    ];
+    if let Some(decimals) = observation.few_decimals {
+        findings.pop();
+        findings.push(fact(
+            "same place",
+            storage,
+            "positions with at least four decimals",
+            format!("positions have {decimals}: whether photons hit the triangle they leave cannot be told"),
+            false,
+            Weight::Remark,
+            "Write positions with all their digits, such as nine.",
+        ));
+    }
+    findings
 }
 
 /// Whether the list is long enough to be what the handout asks for.
 pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> Finding {
-    let passed = emitted.is_some() || fitted >= LEAST_EMITTED;
+    let passed = emitted.is_some() || fitted >= FEW_EMITTED;
     Finding {
         check: "enough photons",
         section: Some(Section::PhotonStorage.title()),
-        expected: format!("the photons of at least {LEAST_EMITTED} sent out"),
+        expected: format!("the photons of at least {FEW_EMITTED} sent out"),
         found: format!("{} photons, of about {fitted:.0} sent out", observation.records),
         p_value: None,
         passed,
-        weight: Weight::Fault,
+        weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },
         advice: if passed {
             "".into()
         } else {
@@ -101,7 +127,8 @@ pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> F
 }
 
 /// What costs nothing, since the handout says that positions are sufficient.
-pub fn remarks(observation: &Observation) -> Vec<Finding> {
+/// `emitted` is how many photons were sent out by the word of the course.
+pub fn remarks(observation: &Observation, emitted: Option<f64>) -> Vec<Finding> {
     let remark = |check, expected: &str, found: String, passed, advice: &'static str| Finding {
         check,
         section: Some(Section::PhotonStorage.title()),
@@ -118,6 +145,17 @@ pub fn remarks(observation: &Observation) -> Vec<Finding> {
             "intensity",
             "one intensity for all: the light's colour divided by the photons sent out",
             "intensities that differ, or say nothing".to_owned(),
+            false,
+            "Set 'intensity' to lightIntensity as it is.",
+        ));
+    }
+    if let (Some(emitted), Some(says)) = (emitted, observation.emitted_by_intensity)
+        && (says / emitted - 1.0).abs() > 1e-3
+    {
+        findings.push(remark(
+            "intensity",
+            "the light's colour divided by the photons sent out",
+            format!("it is of {says:.0} sent out, not of {emitted:.0}"),
             false,
             "Set 'intensity' to lightIntensity as it is.",
         ));
@@ -158,7 +196,10 @@ pub fn remarks(observation: &Observation) -> Vec<Finding> {
             "The photon ray's direction, with the opposite sign."
         },
     ));
-    let is_indirect = few(to_the_light);
+    if to_light.is_towards_light_throughout() {
+        return findings;
+    }
+    let is_indirect = to_the_light as f64 <= (MOST_STRAIGHT * set as f64).max(3.0);
     findings.push(Finding {
         weight: if is_indirect { Weight::Remark } else { Weight::Grave },
         ..remark(

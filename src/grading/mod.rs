@@ -12,7 +12,7 @@
 //! misreading, where the power is greatest. p-values are corrected for the number of tests (Sidak), and
 //! the fair reading that fits best counts. A submission is incorrect below [`judge_list::SIGNIFICANCE`], a
 //! tenth of what a class could bear: at small counts the tails of these tests are a little heavier than
-//! the normal law's. Means have a leeway of about one part in a hundred, since where a ray starts, and how
+//! the normal law's. Means have a leeway of about half a part in a hundred, since where a ray starts, and how
 //! far off its surface a position is stored, are nobody's fault; it matters only beyond a million photons.
 //! A misreading is named when its own counts agree with the submission's and no other's do as well.
 //! `golden/grading.md` has what all of this achieves.
@@ -27,6 +27,7 @@ pub mod hypotheses;
 pub mod intake;
 pub mod judge_list;
 pub mod naming;
+pub mod number;
 pub mod observation;
 pub mod page;
 pub mod picture;

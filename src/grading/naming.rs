@@ -5,13 +5,13 @@ use super::observation::Observation;
 use super::places::Places;
 use super::signature::{Signature, classes};
 use super::statistics::{Fit, fit, towards};
-use super::variation::FACETS;
+use super::variation::{FACETS, survival_of_facets};
 
 /// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
 /// misreading is not all of it.
-const LEEWAY: f64 = 0.02;
+const LEEWAY: f64 = 0.012;
 /// A misreading that would show so little as what is seen less often than this explains nothing.
-const LEAST_LIKELY: f64 = 1e-4;
+pub(super) const LEAST_LIKELY: f64 = 1e-4;
 /// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
 /// misreadings without them explain nothing.
 const MANY_REPEATED: f64 = 0.03;
@@ -25,6 +25,9 @@ const FIRST_HITS_SHOW: f64 = 6.0;
 /// brings half of the starts below the surface.
 const LEAST_SCATTERED: f64 = 0.5;
 const MOST_FIRST_HITS: f64 = 0.5;
+/// By which part of itself the number of photons that self-hits leave may be off: its prediction takes the same
+/// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
+const LEEWAY_OF_LOSS: f64 = 0.12;
 
 /// A misreading that explains a submission.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,9 +69,7 @@ pub fn name(
     let counts = classes(&observation.counts, places);
     let repeated = observation.repeated / observation.counts.on_surfaces().max(1.0);
     let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
-    let straight = observation
-        .to_light
-        .map(|to_light| to_light.to_the_light as f64 / to_light.set.max(1) as f64);
+    let straight = observation.to_light.and_then(|to_light| to_light.part_straight());
     let is_short = observation.bounces.is_some_and(|[first, last]| {
         i32::from(last - first) + 1 < known.max_bounces && known.max_bounces <= SMALL_LIMIT
     });
@@ -129,8 +130,56 @@ fn explain_by_self_hits(
         // Of an unknown size, only the shape of what is left tells.
         emitted.is_none() || (least..most).contains(&distinct[class])
     };
-    let explains = shows_first_hits && (0..places.facets.len()).all(is_between);
+    let explains = shows_first_hits
+        && (0..places.facets.len()).all(is_between)
+        && emitted.is_none_or(|emitted| {
+            let counts = classes(&observation.counts, places);
+            loses_what_self_hits_lose(emitted, &counts, &distinct, with_first_hits, known)
+        });
     explains.then_some(of_distinct)
+}
+
+/// Whether facets that the light does not reach have as many photons fewer as self-hits lose on their way: `counts`,
+/// at `distinct` places, of `emitted` sent out.
+fn loses_what_self_hits_lose(
+    emitted: f64,
+    counts: &[f64],
+    distinct: &[f64],
+    with_first_hits: &[f64],
+    known: Known,
+) -> bool {
+    let reference = known.reference;
+    let first_hits =
+        |facet: usize| emitted * (with_first_hits[facet] - reference.classes[facet]).max(0.0);
+    let scattered = |facet: usize| emitted * reference.classes[facet];
+    let (lit, dark): (Vec<usize>, Vec<usize>) =
+        (0..FACETS).partition(|facet| first_hits(*facet) > scattered(*facet));
+    let of_dark = |of: &dyn Fn(usize) -> f64| dark.iter().map(|facet| of(*facet)).sum::<f64>();
+    let found = of_dark(&|facet| distinct[facet]);
+    let left = found / of_dark(&scattered).max(1.0);
+
+    let survival = survival_of_facets();
+    let (mut survive, mut leave) = (0.0, 0.0);
+    for facet in lit {
+        let (first, survival) = (first_hits(facet), f64::from(survival[facet]));
+        let arriving = left * scattered(facet) + first;
+        // Of first hits, those are known that a self-hit followed. What follows that may be rarer: on some planes
+        // rounding brings no point below twice.
+        let again = ((distinct[facet] - left * scattered(facet)) / first).clamp(0.0, survival);
+        let known_again = counts[facet] - distinct[facet] + first * again;
+        let once_more = (1.0 - arriving * again / known_again.max(1.0)).clamp(0.0, survival);
+        survive += first * survival;
+        leave += first
+            * (survival - again + again * (survival - once_more) / (1.0 - once_more).max(1e-9));
+    }
+    let part = leave / survive;
+    let of_bounce = |bounce: usize| of_dark(&|facet| reference.by_bounce[bounce][facet]);
+    let bounces = 0..reference.by_bounce.len();
+    let all: f64 = bounces.clone().map(of_bounce).sum();
+    let lost: f64 =
+        bounces.map(|bounce| part.powi(bounce as i32 + 1) * of_bounce(bounce)).sum::<f64>() / all;
+    let by_chance = 3.0 / found.max(1.0).sqrt();
+    (left / lost - 1.0).abs() < LEEWAY_OF_LOSS + by_chance
 }
 
 /// The likeliest of `candidates`, if it explains what is seen, and no other does as well.

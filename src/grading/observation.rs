@@ -7,8 +7,16 @@ use glam::{DVec3, Vec3};
 
 /// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
 const SAME_PLACE: f64 = 2e-5;
+/// An intensity whose inverse is less is none of so many photons, but a colour left as it is, perhaps times a
+/// constant.
+const LEAST_NUMBER: f64 = 100.0;
 /// How many neighbours are looked at before a photon counts as alone.
 const MOST_NEIGHBOURS: usize = 256;
+/// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with three, three in
+/// a hundred of the photons of ten million sent out.
+const FEWEST_DECIMALS: i32 = 4;
+/// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
+const EXACT_DECIMALS: i32 = 6;
 /// How many bounces are counted apart.
 pub const BOUNCES: usize = 4;
 
@@ -71,6 +79,21 @@ pub struct ToLight {
     pub all_alike: bool,
 }
 
+impl ToLight {
+    /// Whether all point to the light, through surfaces if need be: then they say nothing of the way that
+    /// photons came.
+    pub fn is_towards_light_throughout(&self) -> bool {
+        let set = self.set as f64;
+        self.to_the_light as f64 > 0.95 * set && self.from_behind as f64 > 0.01 * set
+    }
+
+    /// The part of the photons that come straight from the light, if the directions tell.
+    pub fn part_straight(&self) -> Option<f64> {
+        let tells = !self.is_towards_light_throughout();
+        tells.then(|| self.to_the_light as f64 / self.set.max(1) as f64)
+    }
+}
+
 /// What a list shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -80,8 +103,13 @@ pub struct Observation {
     pub counts: Counts,
     /// How many lie on a facet where another one does that is counted already.
     pub repeated: f64,
-    /// The same without these.
+    /// How many lie where another one does to the last bit; nothing where that may come from rounding.
+    pub identical: Option<f64>,
+    /// The same without those that are repeated.
     pub distinct: Counts,
+    /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
+    /// then none counts as repeated.
+    pub few_decimals: Option<i32>,
     /// How many photons were sent out by the word of the intensities, if they agree with each other.
     pub emitted_by_intensity: Option<f64>,
     /// Whether the list has intensities that are of no use.
@@ -94,19 +122,39 @@ pub struct Observation {
     pub bounces: Option<[u16; 2]>,
 }
 
+/// Whether all positions of `records` are whole numbers of the unit with `decimals` decimals.
+fn are_rounded(records: &[PhotonRecord], decimals: i32) -> bool {
+    let unit = 10_f64.powi(decimals);
+    let mut finite = records.iter().filter(|record| record.position.is_finite()).peekable();
+    let is_rounded = |coordinate: f64| {
+        let scaled = coordinate * unit;
+        // What f32 makes of a decimal fraction is off by half a unit in the last place.
+        (scaled - scaled.round()).abs() <= 1.2e-7 * scaled.abs()
+    };
+    finite.peek().is_some()
+        && finite.all(|record| record.position.as_dvec3().to_array().into_iter().all(is_rounded))
+}
+
 /// Looks at `list`, whose positions are in world space, with the light at `light`.
 pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation {
     let located: Vec<Place> =
         list.records.iter().map(|record| places.place(record.position.as_dvec3())).collect();
     let mut counts = Counts::new(places);
     let mut distinct = Counts::new(places);
-    let repeats = repeats(&list.records, &located);
-    for (place, repeats) in located.iter().zip(&repeats) {
+    let decimals = (0..EXACT_DECIMALS).find(|decimals| are_rounded(&list.records, *decimals));
+    let few_decimals = decimals.filter(|decimals| *decimals < FEWEST_DECIMALS);
+    let repeats = match few_decimals {
+        Some(_) => vec![Repeat::No; located.len()],
+        None => repeats(&list.records, &located),
+    };
+    for (place, repeat) in located.iter().zip(&repeats) {
         counts.add(*place);
-        if !repeats {
+        if *repeat == Repeat::No {
             distinct.add(*place);
         }
     }
+    let count = |wanted| repeats.iter().filter(|repeat| **repeat == wanted).count() as f64;
+    let identical = count(Repeat::Exactly);
     let bounces = list.columns.bounce.then(|| {
         let all = list.records.iter().map(|record| record.bounce);
         [all.clone().min().unwrap_or(0), all.max().unwrap_or(0)]
@@ -123,9 +171,11 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
     let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
     Observation {
         records: list.records.len() as u64,
-        repeated: repeats.iter().filter(|repeats| **repeats).count() as f64,
+        repeated: count(Repeat::Closely) + identical,
+        identical: decimals.is_none().then_some(identical),
         counts,
         distinct,
+        few_decimals,
         emitted_by_intensity: intensity.flatten(),
         has_odd_intensity: intensity == Some(None) && !list.records.is_empty(),
         to_light: list.columns.to_light.then(|| directions(&list.records, &located, places, light)),
@@ -142,14 +192,22 @@ fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
         channels.iter().all(|channel| (channel - first).abs() <= 1e-5 * first)
     };
     let emitted = 1.0 / first;
-    let is_a_number = (1000.0..1e12).contains(&emitted);
+    let is_a_number = (LEAST_NUMBER..1e12).contains(&emitted);
     let agree = is_a_number && records.iter().all(|record| is_like_first(record.intensity));
     // Of f32, whose 7 digits leave the last of a larger number open.
     agree.then(|| if emitted < 1e6 { emitted.round() } else { emitted })
 }
 
+/// Whether a photon lies where another one does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Repeat {
+    No,
+    Closely,
+    Exactly,
+}
+
 /// Which photons have another one at the same place that comes after them on a sweep.
-fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<bool> {
+fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat> {
     // Askew to all facets, so that few photons are abreast.
     let way = DVec3::new(0.5342, 0.6171, 0.5777);
     let mut sweep: Vec<(f64, DVec3, usize)> = Vec::new();
@@ -160,13 +218,16 @@ fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<bool> {
         }
     }
     sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let mut repeats = vec![false; records.len()];
+    let mut repeats = vec![Repeat::No; records.len()];
     for (at, (along, position, index)) in sweep.iter().enumerate() {
         let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
-        let mut near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
-        let is_same =
-            |other: &(f64, DVec3, usize)| other.1.distance_squared(*position) <= SAME_PLACE.powi(2);
-        repeats[*index] = near.any(is_same);
+        let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
+        let closest = near.map(|other| other.1.distance_squared(*position)).reduce(f64::min);
+        repeats[*index] = match closest {
+            Some(0.0) => Repeat::Exactly,
+            Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
+            _ => Repeat::No,
+        };
     }
     repeats
 }

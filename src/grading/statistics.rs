@@ -1,7 +1,7 @@
 //! How far counts are from what is expected, where photons of one path are not independent.
 
 use statrs::function::erf::erfc;
-use statrs::function::gamma::gamma_ur;
+use statrs::function::gamma::{gamma_lr, gamma_ur};
 
 /// A symmetric matrix, row by row.
 pub type Matrix = Vec<Vec<f64>>;
@@ -149,6 +149,20 @@ pub fn chi_squared_tail(value: f64, degrees: usize) -> f64 {
 /// The chance that a standard normal number is farther from 0 than `z`, on either side.
 pub fn normal_tails(z: f64) -> f64 {
     erfc(z.abs() / std::f64::consts::SQRT_2)
+}
+
+/// The chance that a count of photons is farther from `mean`, on either side, than `count`. Photons come in
+/// paths, a few of which are long: where few are expected, their count is askew, and large counts are
+/// likelier than the normal law has it; the gamma law is more askew still.
+pub fn tails_of_count(count: f64, mean: f64, variance: f64) -> f64 {
+    let normal = normal_tails((count - mean) / variance.sqrt());
+    let (shape, scaled) = (mean * mean / variance, count * mean / variance);
+    let gamma = match count {
+        count if count <= 0.0 => 0.0,
+        count if count < mean => gamma_lr(shape, scaled),
+        _ => gamma_ur(shape, scaled),
+    };
+    normal.max((2.0 * gamma).min(1.0))
 }
 
 /// The chance that the smallest of `tests` independent p-values is at most `p_value` (Sidak).

@@ -105,6 +105,20 @@ impl Variation {
     }
 }
 
+/// P_r of every facet.
+pub fn survival_of_facets() -> [f32; FACETS] {
+    let scene = assignment8::create_scene();
+    let facets = scene
+        .triangles()
+        .chunk_by(|a, b| (a.parent_mesh_object, a.facet) == (b.parent_mesh_object, b.facet));
+    let mut survivals = [0.0; FACETS];
+    for (of_facet, triangles) in survivals.iter_mut().zip(facets) {
+        let material = &scene.mesh_objects()[triangles[0].parent_mesh_object].material;
+        *of_facet = survival(material.base_diffuse_reflection(), Roulette::Largest);
+    }
+    survivals
+}
+
 /// Traces photons of the assignment's scene under one variation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
