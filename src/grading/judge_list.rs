@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use super::bounces::bounce_findings;
 use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
-use super::naming::{Explanation, Known, LEAST_LIKELY, can_show, name};
+use super::naming::{Explanation, Known, can_show, name};
 use super::number::{SLIPS, contradiction, slip_finding};
 use super::observation::Observation;
 use super::picture::expectations::PictureExpectations;
@@ -69,6 +69,10 @@ impl Expectations {
     }
 }
 
+/// A constant factor of the intensity with which the photons are less likely than this does not excuse them: a list
+/// that lost as many photons by chance is as likely.
+const LEAST_LIKELY_SLIP: f64 = 0.02;
+
 /// The tests of a list against one fair reading.
 struct Trial {
     reading: usize,
@@ -106,7 +110,7 @@ pub fn judge(
         let trials = slips
             .map(|(slip, emitted)| (slip, best_trial(observation, Some(emitted), expectations)));
         let by_shape = best_trial(observation, None, expectations);
-        let fitting = trials.into_iter().find(|(_, trial)| trial.p_value >= LEAST_LIKELY);
+        let fitting = trials.into_iter().find(|(_, trial)| trial.p_value >= LEAST_LIKELY_SLIP);
         if let Some((slip, of_slip)) = fitting {
             findings.push(slip_finding(slip, number, trial.p_value));
             trial = of_slip;

@@ -11,7 +11,7 @@ use super::variation::{FACETS, survival_of_facets};
 /// misreading is not all of it.
 const LEEWAY: f64 = 0.012;
 /// A misreading that would show so little as what is seen less often than this explains nothing.
-pub(super) const LEAST_LIKELY: f64 = 1e-4;
+const LEAST_LIKELY: f64 = 1e-4;
 /// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
 /// misreadings without them explain nothing.
 const MANY_REPEATED: f64 = 0.03;
