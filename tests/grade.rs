@@ -207,6 +207,16 @@ fn other_programs_lists() {
     let space: fn([f32; 3]) -> String = |[x, y, z]| format!("{x}  {y} {z}");
     let cases = [
         ("semicolons", with("x;y;z\n", |[x, y, z]| format!("{x};{y};{z}")), "semicolons"),
+        (
+            "decimal-commas",
+            with("x;y;z\n", |xyz| xyz.map(|it| it.to_string().replace('.', ",")).join(";")),
+            "semicolons",
+        ),
+        (
+            "decimal-commas-alone",
+            with("", |xyz| xyz.map(|it| it.to_string().replace('.', ",")).join(";")),
+            "semicolons between values; no names of columns",
+        ),
         ("tabs", with("x\ty\tz\n", |[x, y, z]| format!("{x}\t{y}\t{z}")), "tabs"),
         ("spaces", with("", space), "spaces between values; no names of columns"),
         ("numpy", with("# x y z\n", space), "spaces"),

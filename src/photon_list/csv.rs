@@ -100,7 +100,7 @@ fn record(row: &str, dialect: &Dialect, places: &[Option<usize>]) -> Result<Phot
             .next()
             .ok_or_else(|| format!("expected {} values, found {seen}", places.len()))?;
         if let Some(place) = *place {
-            record.set(place, Value::Text(text)).ok_or_else(|| {
+            record.set(place, Value::Text(&dialect.with_point(text))).ok_or_else(|| {
                 let name = COLUMNS[place];
                 let found = text.chars().take(40).collect::<String>();
                 format!("expected a number for '{name}', found '{found}'")

@@ -1,5 +1,7 @@
 //! What the columns of somebody's list are called, and what is between them.
 
+use std::borrow::Cow;
+
 use super::record::{COLUMNS, Columns, Value};
 
 /// How other programs name the vectors of a photon: in front of a coordinate or a channel.
@@ -88,7 +90,7 @@ impl Dialect {
         // A comma may also be part of a number.
         let separator = [';', '\t', ','].into_iter().find(|separator| line.contains(*separator));
         let first: Vec<&str> = cells(line, separator).collect();
-        let is_number = |text: &&str| Value::Text(text).float().is_some();
+        let is_number = |text: &&str| Value::Text(&with_point(text, separator)).float().is_some();
         let has_header = !first.iter().all(is_number);
         let mut naming = match first.len() {
             _ if has_header => Naming::of(&first)?,
@@ -115,9 +117,22 @@ impl Dialect {
         Ok(Self { separator, naming, has_header })
     }
 
+    /// `text` with a decimal point, where it may have a decimal comma.
+    pub fn with_point<'row>(&self, text: &'row str) -> Cow<'row, str> {
+        with_point(text, self.separator)
+    }
+
     /// The values of `row`.
     pub fn cells<'row>(&self, row: &'row str) -> impl Iterator<Item = &'row str> {
         cells(row, self.separator)
+    }
+}
+
+fn with_point(text: &str, separator: Option<char>) -> Cow<'_, str> {
+    if separator == Some(',') || !text.contains(',') {
+        Cow::Borrowed(text)
+    } else {
+        Cow::Owned(text.replacen(',', ".", 1))
     }
 }
 
