@@ -7,7 +7,10 @@ use std::time::Instant;
 use common::judge::{Judge, Judgement};
 use common::{handout, handout_on_a_plain, handout_over_a_square, light, list, moved_handout};
 use glam::{DVec3, Vec3};
+use photon_mapping::accuracy::Accuracy;
 use photon_mapping::accuracy::table::ExpectedTable;
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::record::PhotonRecord;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use photon_mapping::rendering::reading::{Offset, Reading};
@@ -15,6 +18,8 @@ use photon_mapping::report::both_precisions::Path;
 use photon_mapping::report::both_precisions::double::Tracer;
 use photon_mapping::scene::frame::Frame;
 use photon_mapping::scene::lights::point_light::PointLight;
+use photon_mapping::scene::material::Material;
+use photon_mapping::scene::mesh_object::MeshObject;
 use photon_mapping::scene::triangle::Triangle;
 use photon_mapping::scene::{LARGE_EPSILON, Scene};
 
@@ -136,6 +141,74 @@ fn small_detail_on_a_wide_plain() {
         });
         let share = f64::from(others) / count as f64;
         assert!(share < 1e-5 + f64::from(f32::EPSILON) * extent, "{extent}: {others} of {count}");
+    }
+}
+
+/// Also the oracle must see a small thing on a wide floor, where all of a density is in a narrow peak.
+#[test]
+fn expected_hits_on_a_wide_plain() {
+    let count = 1_000_000;
+    for extent in [20.0, 500.0] {
+        let renderer = handout_on_a_plain(extent, DVec3::ZERO, 37, count);
+        let scene = &renderer.stored_scene;
+        let expected = ExpectedTable::compute(scene, &[count], Accuracy::Quick);
+        let records = list(&renderer);
+        for (surface, row) in expected.surfaces.iter().enumerate() {
+            for bounce in 1..=3 {
+                let is_one =
+                    |r: &&PhotonRecord| (usize::from(r.surface), r.bounce) == (surface, bounce);
+                let stored = records.iter().filter(is_one).count() as f64;
+                let [mean, error] =
+                    [&row.hits, &row.error].map(|it| it[usize::from(bounce)] * count as f64);
+                let off = (stored - mean).abs();
+                let case = format!("{extent}: {}, bounce {bounce}: {stored}, {mean}", row.name);
+                assert!(off < 4.5 * mean.sqrt() + error, "{case} +- {error}");
+                // The bound is to be of use where the quick way has one.
+                assert!(bounce > 1 || error < 0.01 * mean, "{case} +- {error}");
+            }
+        }
+    }
+}
+
+/// Two facets in one place that look opposite ways are met from their fronts, also by the oracle.
+#[test]
+fn expected_hits_on_a_sheet_of_two_sides() {
+    let square = |height: f32, size: f32, normal: Vec3, surface: usize| {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let [a, b, c, d] = corners.map(|(x, y)| Vec3::new(size * x, size * y, height));
+        [[a, b, c], [a, c, d]].map(|vertices| Triangle {
+            vertices,
+            normal,
+            parent_mesh_object: surface,
+            facet: 0,
+        })
+    };
+    let grey =
+        |name: &str| MeshObject { name: name.into(), material: Material::new(Vec3::splat(0.5)) };
+    let names = ["floor", "up", "down", "roof"].map(grey);
+    // The sheet's lower side is smaller, so that the upper one is met from behind beside it.
+    let triangles = [
+        square(0.0, 1.0, Vec3::Z, 0),
+        square(0.5, 0.5, Vec3::Z, 1),
+        square(0.5, 0.3, Vec3::NEG_Z, 2),
+        square(1.2, 1.0, Vec3::NEG_Z, 3),
+    ];
+    let light = PointLight { position: Vec3::new(0.0, 0.7, 0.9), color: Vec3::ONE };
+    let scene = Scene::new(names.into(), triangles.concat(), vec![light]);
+    let count = 300_000;
+    let expected = ExpectedTable::compute(&scene, &[count], Accuracy::Quick);
+    let renderer = PhotonMappingRenderer {
+        seed: 38,
+        photon_count: count,
+        ..assignment8::create_renderer(scene)
+    };
+    let records = list(&renderer);
+    for (surface, row) in expected.surfaces.iter().enumerate() {
+        let stored = records.iter().filter(|r| usize::from(r.surface) == surface).count() as f64;
+        let deviation = (expected.covariance[surface][surface] * count as f64).sqrt();
+        let off = (stored - row.stored * count as f64).abs();
+        assert!(off < 4.5 * deviation + 0.01 * stored, "{}: {stored}, {}", row.name, row.stored);
+        assert!(stored > 500.0, "{}: {stored}", row.name);
     }
 }
 

@@ -67,12 +67,11 @@ impl Mesh {
         if polygon.len() < 3 {
             return Branch::Empty;
         }
-        let normal = scene.plates[plate].plane.normal;
         let Some((plane, others)) = planes.split_first() else {
             let widths: Vec<f64> =
                 self.widths.unwrap_or_default().iter().map(|width| width * longest).collect();
             let strips = strips(scene, plate, &polygon, &widths);
-            return self.cut_strips(plate, normal, polygon, &strips, longest);
+            return self.cut_strips(scene, plate, polygon, &strips, longest);
         };
         let (positive, negative) = split(&polygon, plane);
         if positive.is_empty() || negative.is_empty() {
@@ -85,32 +84,33 @@ impl Mesh {
 
     fn cut_strips(
         &mut self,
+        scene: &Scene,
         plate: usize,
-        normal: DVec3,
         polygon: Polygon,
         strips: &[Plane],
         longest: f64,
     ) -> Branch {
         let Some((plane, others)) = strips.split_first() else {
-            return self.grow_fan(plate, normal, &polygon, longest);
+            return self.grow_fan(scene, plate, &polygon, longest);
         };
         let (positive, negative) = split(&polygon, plane);
         if positive.len() < 3 || negative.len() < 3 {
-            return self.cut_strips(plate, normal, polygon, others, longest);
+            return self.cut_strips(scene, plate, polygon, others, longest);
         }
-        let positive = self.cut_strips(plate, normal, positive, others, longest);
-        let negative = self.cut_strips(plate, normal, negative, others, longest);
+        let positive = self.cut_strips(scene, plate, positive, others, longest);
+        let negative = self.cut_strips(scene, plate, negative, others, longest);
         Branch::Cut(*plane, Box::new(positive), Box::new(negative))
     }
 
-    fn grow_fan(&mut self, plate: usize, normal: DVec3, polygon: &[DVec3], longest: f64) -> Branch {
+    fn grow_fan(&mut self, scene: &Scene, plate: usize, polygon: &[DVec3], longest: f64) -> Branch {
+        let normal = scene.plates[plate].plane.normal;
         let mut triangles: Vec<[DVec3; 3]> = fan(polygon).collect();
         let Some(last) = triangles.pop() else {
             return Branch::Empty;
         };
-        let mut branch = self.grow_triangle(plate, normal, last, longest);
+        let mut branch = self.grow_triangle(scene, plate, last, longest);
         while let Some(triangle) = triangles.pop() {
-            let this = self.grow_triangle(plate, normal, triangle, longest);
+            let this = self.grow_triangle(scene, plate, triangle, longest);
             let diagonal = triangle[0] - triangle[2];
             branch = match normal.cross(diagonal).try_normalize() {
                 Some(inward) => Branch::Cut(
@@ -126,13 +126,16 @@ impl Mesh {
 
     fn grow_triangle(
         &mut self,
+        scene: &Scene,
         plate: usize,
-        normal: DVec3,
         triangle: [DVec3; 3],
         longest: f64,
     ) -> Branch {
+        let normal = scene.plates[plate].plane.normal;
         let (edge, length_squared) = longest_edge(&triangle);
-        if length_squared <= longest * longest {
+        // Smaller where a small thing is near: in the handout's scene nowhere.
+        let longest_here = longest * (8.0 * scene.detail_near(plate, &triangle)).min(1.0);
+        if length_squared <= (longest_here * longest_here).max(1e-12) {
             return self.add(plate, normal, triangle);
         }
         let [left, right] = bisect(&triangle);
@@ -141,8 +144,8 @@ impl Mesh {
         match normal.cross(across).try_normalize() {
             Some(inward) => {
                 let cut = Plane::through(left[1], inward);
-                let left = self.grow_triangle(plate, normal, left, longest);
-                let right = self.grow_triangle(plate, normal, right, longest);
+                let left = self.grow_triangle(scene, plate, left, longest);
+                let right = self.grow_triangle(scene, plate, right, longest);
                 Branch::Cut(cut, Box::new(left), Box::new(right))
             }
             None => Branch::Empty,

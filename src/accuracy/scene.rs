@@ -1,13 +1,17 @@
 //! The scene as the oracle sees it: facets brought to unit size, planes turned to the scattering side, and for every
 //! pair of facets the short list of others that can stand between them.
 
-use super::polygon::{Plane, Polygon, area_vector, range, side_planes, subtract};
+use super::polygon::{Plane, Polygon, area_vector, keep, range, side_planes, subtract};
 use super::{Emitter, Facet};
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// Nearer than this to a plane counts as in it. Larger than the rounding of a unit-size scene moved 1e5 away.
 pub const IN_PLANE: f64 = 1e-9;
+
+/// So far facets are moved apart that lie in one another and look opposite ways. Each is met from its front alone then,
+/// as in the tracer.
+pub const GAP: f64 = 1e-7;
 
 /// A usable facet.
 pub struct Plate {
@@ -38,6 +42,8 @@ pub struct Scene {
     pub plates: Vec<Plate>,
     /// Position in scene units, and share of the emitted photons.
     pub emitters: Vec<(DVec3, f64)>,
+    /// Whether facets were moved by [`GAP`].
+    pub is_parted: bool,
     /// Least and greatest distance of the corners of plate `b` from the plane of plate `a`, at `a * n + b`.
     ranges: Vec<(f64, f64)>,
     /// Possible occluders, at `(a * 2 + side) * n + target`.
@@ -63,14 +69,28 @@ impl Scene {
             })
             .map(|emitter| (to_scene(emitter.position), emitter.share))
             .collect();
+        let is_parted = part_back_to_back(&mut plates);
         let ranges = plates
             .iter()
             .flat_map(|a| plates.iter().map(|b| range(&b.corners, &a.plane)))
             .collect();
-        let mut scene = Self { plates, emitters, ranges, between: Vec::new() };
+        let mut scene = Self { plates, emitters, is_parted, ranges, between: Vec::new() };
         scene.drop_covered_parts();
         scene.list_occluders();
         scene
+    }
+
+    /// How far off, or how large, is the smallest thing near `triangle` of plate `own`: another facet, or a light.
+    /// Densities on the triangle vary over such lengths.
+    pub fn detail_near(&self, own: usize, triangle: &[DVec3; 3]) -> f64 {
+        let middle = triangle.iter().sum::<DVec3>() / 3.0;
+        let radius = triangle.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
+        let plates = self.plates.iter().enumerate().filter(|(index, _)| *index != own);
+        let plates = plates.map(|(_, plate)| (plate.centre, plate.radius));
+        let height = |light: DVec3| self.plates[own].plane.distance(light).abs();
+        let lights = self.emitters.iter().map(|(light, _)| (*light, height(*light)));
+        let distance = |(centre, size): (DVec3, f64)| (middle.distance(centre) - radius).max(size);
+        plates.chain(lights).map(distance).fold(f64::INFINITY, f64::min)
     }
 
     /// Where two coplanar facets overlap, the earlier one takes the photons, so that duplicates count once.
@@ -176,6 +196,31 @@ impl Plate {
             Side::Back => self.plane.flipped(),
         }
     }
+}
+
+/// Moves facets apart that lie in one another and look opposite ways; whether there are any.
+fn part_back_to_back(plates: &mut [Plate]) -> bool {
+    let overlap = |a: &Plate, b: &Plate| {
+        let (lowest, highest) = range(&b.corners, &a.plane);
+        let is_back_to_back =
+            lowest > -IN_PLANE && highest < IN_PLANE && a.plane.normal.dot(b.plane.normal) < 0.0;
+        is_back_to_back && {
+            let sides = side_planes(&a.corners, a.plane.normal);
+            let common = sides.iter().fold(b.corners.clone(), |piece, side| keep(&piece, side));
+            common.len() >= 3 && area_vector(&common).length() > LEAST_AREA
+        }
+    };
+    let has_back = |a: &usize| plates.iter().any(|b| overlap(&plates[*a], b));
+    let parted: Vec<usize> = (0..plates.len()).filter(has_back).collect();
+    for &index in &parted {
+        let plate = &mut plates[index];
+        let step = GAP * plate.plane.normal;
+        plate.centre += step;
+        plate.corners.iter_mut().for_each(|corner| *corner += step);
+        plate.parts = vec![plate.corners.clone()];
+        plate.plane = Plane::through(plate.centre, plate.plane.normal);
+    }
+    !parted.is_empty()
 }
 
 /// Centre and larger half extent of all usable facets.

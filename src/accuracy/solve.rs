@@ -5,8 +5,8 @@ use super::cuts::{cut_all, cutting_planes};
 use super::direct::Direct;
 use super::expectation::{Bounded, Expectation, FacetHits};
 use super::mesh::Mesh;
-use super::polygon::{area_vector, fan};
-use super::scene::{Scene, Side};
+use super::polygon::{area_vector, bisect, fan, longest_edge};
+use super::scene::{GAP, Scene, Side};
 use super::solid_angle::form_factor;
 use super::triangle_rules::{Integral, Rule, integrate};
 use super::visibility::seen_from_plate;
@@ -20,6 +20,9 @@ const MOST_BOUNCES: usize = 1001;
 /// Scenes of more facets are not cut along every facet's plane, as the cuts would outnumber the cells, and integrated
 /// with fewer points.
 const MOST_FACETS_FOR_CUTS: usize = 40;
+
+/// A detail is small when it is smaller than this, in scene units. The handout has none.
+const SMALL: f64 = 0.1;
 
 /// No edge is longer, in scene units.
 const WHOLE_SCENE: f64 = 4.0;
@@ -71,7 +74,8 @@ fn expect_with(facets: &[Facet], emitters: &[Emitter], settings: &Settings) -> E
         let facet = &mut result.facets[plate.facet];
         facet.hits = fine.hits.iter().map(|hits| hits[index]).collect();
         // Sums of nothing but exact zeros have nothing to round.
-        let rounding = |hits: f64| if hits == 0.0 { 0.0 } else { ROUNDING };
+        let of_gap = if scene.is_parted { 10.0 * GAP } else { 0.0 };
+        let rounding = |hits: f64| if hits == 0.0 { 0.0 } else { ROUNDING + of_gap };
         let errors = errors.iter().map(|errors| errors[index]).zip(&facet.hits);
         facet.error = errors.map(|(error, hits)| error + rounding(*hits)).collect();
     }
@@ -137,6 +141,17 @@ fn empty_hits(facet: &Facet, bounces: usize) -> FacetHits {
     }
 }
 
+/// `triangle` of `plate` in parts small enough that none can hide the narrow peak that a small thing nearby makes.
+/// Where all things are about as large as the scene, it stays whole.
+fn halved(scene: &Scene, plate: usize, triangle: [DVec3; 3]) -> Vec<[DVec3; 3]> {
+    let detail = scene.detail_near(plate, &triangle);
+    let (_, length_squared) = longest_edge(&triangle);
+    if detail > SMALL || length_squared <= (4.0 * detail).powi(2) || length_squared < 1e-12 {
+        return vec![triangle];
+    }
+    bisect(&triangle).into_iter().flat_map(|half| halved(scene, plate, half)).collect()
+}
+
 /// N2: the lit pieces, cut where a facet comes into view, are integrated with the chance to reach each facet.
 fn second_hits(scene: &Scene, direct: &Direct, settings: &Settings, cuts: bool) -> Integral {
     let mut triangles = Vec::new();
@@ -145,7 +160,11 @@ fn second_hits(scene: &Scene, direct: &Direct, settings: &Settings, cuts: bool) 
             let planes = if cuts { cutting_planes(scene, piece.plate) } else { Vec::new() };
             let pieces = cut_all(piece.corners.clone(), &planes);
             triangles.extend(
-                pieces.iter().flat_map(|piece| fan(piece)).map(|triangle| (index, triangle)),
+                pieces
+                    .iter()
+                    .flat_map(|polygon| fan(polygon))
+                    .flat_map(|triangle| halved(scene, piece.plate, triangle))
+                    .map(|triangle| (index, triangle)),
             );
         }
     }
@@ -175,6 +194,7 @@ fn third_hits(scene: &Scene, direct: &Direct, tolerance: f64, most: usize, cuts:
             triangles.extend(
                 pieces
                     .flat_map(|piece| fan(&piece).collect::<Vec<_>>())
+                    .flat_map(|triangle| halved(scene, index, triangle))
                     .map(|triangle| (index, triangle)),
             );
         }

@@ -129,7 +129,8 @@ impl Scene {
     /// A ray that meets the back of a surface is looked at once more, since rounding may be the cause. Where
     /// it touches the edge of a solid, it enters and leaves at once, and the back may seem to be before the
     /// front; where it grazes the surface below which it started, the [`Ray::start_error`] may have been too
-    /// short. So a back yields to a front next to it, or next to the start.
+    /// short. So a back yields to the front of a neighbour at the same place, which shares a corner or its plane, and
+    /// to any front within the error of the start.
     pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
         let Some(state) = state else {
             return match &self.tree {
@@ -141,10 +142,18 @@ impl Scene {
         let mut closest = self.closest(ray, |_, _| true);
         if let Some((index, t)) = closest.filter(|hit| !self.triangles[hit.0].faces(direction)) {
             let mut again = *ray;
-            again.max_t = ray.max_t.min(t + NEAR * self.rounding(index, ray.ray_position(t), t));
+            let rounding = self.rounding(index, ray.ray_position(t), t);
+            again.max_t = ray.max_t.min(t + NEAR * rounding);
             again.start_error = NEAR * ray.start_error;
-            let is_front = |triangle: &Triangle, t| {
-                triangle.faces(direction) && t * direction.dot(triangle.normal) <= ray.start_error
+            let back = &self.triangles[index];
+            let is_front = |triangle: &Triangle, t: f32| {
+                let depth_of_start = t * direction.dot(triangle.normal);
+                let counts = if t > 0.0 {
+                    back.touches(triangle, 0.25 * rounding)
+                } else {
+                    depth_of_start <= ray.start_error
+                };
+                triangle.faces(direction) && counts
             };
             closest = self.closest(&again, is_front).or(closest);
         }

@@ -14,6 +14,10 @@ use glam::{DVec3, Vec3};
 use super::material::Material;
 use super::mesh_object::MeshObject;
 
+/// A normal of the file that is farther than this from the face's own only chooses the side. The handout's are 3.6e-5
+/// off at most.
+const MOST_TURNED: f32 = 1e-3;
+
 /// Numbers larger than this are refused: their products would not be finite.
 const LARGEST_COORDINATE: f64 = 1e9;
 
@@ -236,7 +240,13 @@ impl Reader {
             let Some(plane_normal) = (b - a).cross(c - a).try_normalize() else { continue };
             // Corners with different normals ask for a smooth surface, which no scene here needs:
             // such a face is as flat as it is built.
-            let normal = file_normal.unwrap_or(plane_normal.as_vec3());
+            let of_plane = plane_normal.as_vec3();
+            let normal = match file_normal {
+                Some(normal) if normal.distance(of_plane) <= MOST_TURNED => normal,
+                Some(normal) if normal.distance(-of_plane) <= MOST_TURNED => normal,
+                Some(normal) if normal.dot(of_plane) < 0.0 => -of_plane,
+                _ => of_plane,
+            };
             let triangle = ModelTriangle { vertices, normal, parent_mesh_object: mesh, facet };
             self.model.triangles.push(triangle);
         }

@@ -122,6 +122,13 @@ impl Triangle {
         ray.reaches(self, t).then_some(t)
     }
 
+    /// Whether the two have a corner in common, or `other` lies in this one's plane, no farther than `rounding`.
+    pub fn touches(&self, other: &Self, rounding: f32) -> bool {
+        let height = |corner: Vec3| self.normal.dot(corner - self.vertices[0]);
+        self.vertices.iter().any(|corner| other.vertices.contains(corner))
+            || other.vertices.iter().all(|corner| height(*corner).abs() <= rounding)
+    }
+
     /// Whether a ray in `direction` meets the side to which the normal points.
     pub fn faces(&self, direction: Vec3) -> bool {
         direction.dot(self.normal) <= 0.0
