@@ -291,6 +291,24 @@ fn a_wrong_intensity_costs_nothing() {
 }
 
 #[test]
+fn an_intensity_alone_wrong_costs_nothing() {
+    let columns = Columns { intensity: true, ..Columns::default() };
+    let of_reference = records(Variation::default(), 78, EMITTED);
+    let stored = of_reference.len() as f64 / EMITTED as f64;
+    for factor in [1000.0, 1.0 / stored, std::f64::consts::TAU, 10.0] {
+        let mut wrong = of_reference.clone();
+        wrong.iter_mut().for_each(|record| record.intensity *= factor as f32);
+        let observation = observed(wrong, columns);
+        let by_intensity = observation.emitted_by_intensity;
+        let judgement = judge(&observation, by_intensity, false, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgement), "{factor}: {:#?}", judgement.findings);
+        let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
+        let checks: Vec<_> = remarks.iter().map(|it| it.check).collect();
+        assert_eq!(checks, ["number by intensity"], "{factor}");
+    }
+}
+
+#[test]
 fn photons_that_the_intensity_contradicts_are_not_correct() {
     let columns = Columns { intensity: true, ..Columns::default() };
     for (emitted, part) in [(EMITTED, 2), (EMITTED, 10), (1_000_000, 2)] {

@@ -6,7 +6,7 @@ use super::bounces::bounce_findings;
 use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
 use super::naming::{Explanation, Known, can_show, name};
-use super::number::{SLIPS, contradiction, slip_finding};
+use super::number::{SLIPS, cannot_be, contradiction, impossible, slip_finding};
 use super::observation::Observation;
 use super::picture::expectations::PictureExpectations;
 use super::places::Places;
@@ -114,6 +114,10 @@ pub fn judge(
         if let Some((slip, of_slip)) = fitting {
             findings.push(slip_finding(slip, number, trial.p_value));
             trial = of_slip;
+        } else if by_shape.p_value >= SIGNIFICANCE && cannot_be(number, observation.records as f64)
+        {
+            findings.push(impossible(number, by_shape.emitted, trial.p_value));
+            trial = by_shape;
         } else if by_shape.p_value >= SIGNIFICANCE {
             findings.push(contradiction(number, by_shape.emitted, trial.p_value));
             trial = by_shape;
