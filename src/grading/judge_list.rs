@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use super::bounces::bounce_findings;
+use super::direct::{is_ruled_out, shows_direct};
 use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
 use super::naming::{Explanation, Known, can_show, name};
@@ -50,7 +51,7 @@ pub struct Expectations {
     /// The signatures of all hypotheses.
     pub signatures: Signatures,
     fair: Vec<Hypothesis>,
-    misreadings: Vec<Hypothesis>,
+    pub(super) misreadings: Vec<Hypothesis>,
     /// What pictures are held against: most classes hand in none.
     pictures: OnceLock<PictureExpectations>,
 }
@@ -132,6 +133,13 @@ pub fn judge(
             }
         }
     }
+    let is_ruled_out =
+        trial.p_value >= SIGNIFICANCE && is_ruled_out(observation, trial.emitted, expectations);
+    let of_columns = remarks(observation, emitted.filter(|_| emitted_by_user), is_ruled_out);
+    let is_told = of_columns.iter().chain(&findings).any(Finding::is_fault);
+    if is_off && explanation.is_none() && !is_told {
+        findings.extend(shows_direct(observation, expectations));
+    }
     let shows_plainly = findings.iter().any(Finding::is_fault);
     let reading = expectations.fair[trial.reading].clone();
     let signature = expectations.signatures.fair[trial.reading].clone();
@@ -143,7 +151,7 @@ pub fn judge(
     findings.push(enough(observation, emitted, trial.emitted));
     // What is wrong elsewhere shows in the bounces too, and is no matter of how they are counted.
     findings.extend(of_bounces.into_iter().filter(|finding| finding.is_fault() || !is_off));
-    findings.extend(remarks(observation, emitted.filter(|_| emitted_by_user)));
+    findings.extend(of_columns);
     Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
 }
 
