@@ -127,10 +127,10 @@ fn a_folder_of_students_is_a_class() {
     write(at("class/roster.txt"), "alice\n");
     let grades = grades(&[at("class")], &["--emitted", "60000"]);
     let expected = [
-        ("alice", "correct", "files", "the same, byte by byte, as that of"),
+        ("alice", "correct", "same files", "the same, byte by byte, as that of"),
         ("bob", "correct", "", ""),
         ("carol", "unreadable", "readable", "neither a photon list nor a picture"),
-        ("dave", "correct", "files", "class/alice"),
+        ("dave", "correct", "same files", "class/alice"),
         ("erin", "unreadable", "readable", "photons.csv.gz is packed (gzip): unpack it first"),
     ];
     assert_eq!(grades.len(), expected.len());
@@ -139,7 +139,7 @@ fn a_folder_of_students_is_a_class() {
         assert_eq!(grade["verdict"], verdict, "{grade:#}");
         if check.is_empty() {
             let findings = grade["findings"].as_array().unwrap();
-            assert!(findings.iter().all(|finding| finding["check"] != "files"), "{grade:#}");
+            assert!(findings.iter().all(|finding| finding["check"] != "same files"), "{grade:#}");
         } else {
             assert!(found(grade, check).contains(part), "{grade:#}");
         }
@@ -385,4 +385,45 @@ fn a_policy_sets_the_scores() {
     }
     fails("grade --policy {} {}", &[&at("none.json"), &list], &["none.json", "cannot be read"]);
     fails("grade", &[], &["SUBMISSION"]);
+}
+
+#[test]
+fn lists_after_comments_and_in_other_byte_orders() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let list = common::list(&common::handout(7, PHOTONS));
+    let count = list.len();
+    let header = "ply\nformat binary_big_endian 1.0\nelement vertex";
+    let columns = "property float x\nproperty double y\nproperty float z\nend_header";
+    let mut ply = format!("{header} {count}\n{columns}\n").into_bytes();
+    for record in &list {
+        ply.extend(record.position.x.to_be_bytes());
+        ply.extend(f64::from(record.position.y).to_be_bytes());
+        ply.extend(record.position.z.to_be_bytes());
+    }
+    write(at("class/comment/any.txt"), "# photons, of mine\n# all of them\n".to_owned() + &csv());
+    write(at("class/excel/photons.csv"), "\u{feff}sep=,\r\n".to_owned() + &csv());
+    write(at("class/big/photons.ply"), ply);
+    let grades = grades(&[at("class")], &["--emitted", "60000"]);
+    assert_eq!(grades.len(), 3);
+    for grade in grades {
+        assert_eq!((&grade["verdict"], &grade["stored"]), (&"correct".into(), &count.into()));
+    }
+    let (nothing, comments) = (write(at("nothing.png"), ""), write(at("it.csv"), "# a\n# b\n"));
+    let grades = self::grades(&[nothing, comments], &[]);
+    assert!(found(&grades[0], "readable").contains("the file is empty"));
+    assert!(found(&grades[1], "readable").contains("only comments"));
+}
+
+#[test]
+fn a_black_picture_with_far_too_much_data_is_none() {
+    let folder = folder();
+    let path = folder.path().join("bomb.png");
+    image::RgbImage::new(640, 480).save(&path).unwrap();
+    let verdict = |path: &PathBuf| grades(std::slice::from_ref(path), &[]).remove(0);
+    assert_eq!(verdict(&path)["verdict"], "no-dots");
+    let mut bytes = fs::read(&path).unwrap();
+    bytes.resize(3 << 20, 0);
+    write(path.clone(), bytes);
+    assert!(found(&verdict(&path), "readable").contains("far more data"));
 }

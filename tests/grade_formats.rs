@@ -294,3 +294,33 @@ fn text_of_several() {
     assert!(text.contains("r.csv: correct, 4 of 4 points"), "{text}");
     assert!(text.contains("none.csv: unreadable, 0 of 4 points\n"), "{text}");
 }
+
+#[test]
+fn who_has_the_same_files_is_for_the_course_alone() {
+    let folder = folder();
+    let of = |name: &str| {
+        let student = folder.path().join("class").join(name);
+        fs::create_dir_all(&student).unwrap();
+        correct(&student, "photons.csv");
+    };
+    of("ann");
+    of("ben");
+    let (class, out) = (folder.path().join("class"), folder.path().join("out"));
+    let told = stdout(run_line("grade {}", &[&class]).success());
+    assert!(told.contains("byte by byte"));
+    run_line("grade --format gradescope --out {} {}", &[&out, &class]).success();
+    for name in names(&out) {
+        let value: Value =
+            serde_json::from_str(&fs::read_to_string(out.join(name)).unwrap()).unwrap();
+        check_results(&value);
+        let tests = value["tests"].as_array().unwrap();
+        let of_others = |test: &&Value| test["output"].as_str().unwrap().contains("byte by byte");
+        let twins = tests.iter().find(of_others).expect("they are told");
+        assert_eq!(twins["visibility"], "hidden");
+    }
+    let pages = folder.path().join("pages");
+    run_line("grade --format html --out {} {}", &[&pages, &class]).success();
+    for name in names(&pages).into_iter().filter(|name| name != "index.html") {
+        assert!(!fs::read_to_string(pages.join(name)).unwrap().contains("byte by byte"));
+    }
+}

@@ -291,6 +291,24 @@ fn a_wrong_intensity_costs_nothing() {
 }
 
 #[test]
+fn an_intensity_alone_wrong_costs_nothing() {
+    let columns = Columns { intensity: true, ..Columns::default() };
+    let of_reference = records(Variation::default(), 78, EMITTED);
+    let stored = of_reference.len() as f64 / EMITTED as f64;
+    for factor in [1000.0, 1.0 / stored, std::f64::consts::TAU, 10.0] {
+        let mut wrong = of_reference.clone();
+        wrong.iter_mut().for_each(|record| record.intensity *= factor as f32);
+        let observation = observed(wrong, columns);
+        let by_intensity = observation.emitted_by_intensity;
+        let judgement = judge(&observation, by_intensity, false, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgement), "{factor}: {:#?}", judgement.findings);
+        let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
+        let checks: Vec<_> = remarks.iter().map(|it| it.check).collect();
+        assert_eq!(checks, ["number by intensity"], "{factor}");
+    }
+}
+
+#[test]
 fn photons_that_the_intensity_contradicts_are_not_correct() {
     let columns = Columns { intensity: true, ..Columns::default() };
     for (emitted, part) in [(EMITTED, 2), (EMITTED, 10), (1_000_000, 2)] {
@@ -458,6 +476,57 @@ fn photons_straight_from_the_light_are_seen_by_their_direction() {
     let columns = Columns { to_light: true, ..Columns::default() };
     let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
     let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
+    assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
+}
+
+#[test]
+fn directions_that_the_photons_contradict_cost_nothing() {
+    // As where photons that have bounced once are given the direction of the light.
+    let mut of_reference = records(Variation::default(), 79, EMITTED);
+    let light = create_light().position.as_vec3();
+    for record in of_reference.iter_mut().filter(|record| record.bounce == 1) {
+        record.to_light = (light - record.position).normalize();
+    }
+    let columns = Columns { to_light: true, ..Columns::default() };
+    for emitted in [None, Some(EMITTED as f64)] {
+        let observation = observed(of_reference.clone(), columns);
+        let judgement = judge(&observation, emitted, emitted.is_some(), &EXPECTATIONS);
+        assert!(!is_incorrect(&judgement), "{:#?}", judgement.findings);
+        assert!(judgement.findings.iter().any(|it| it.check == "to_light source" && !it.passed));
+    }
+}
+
+#[test]
+fn a_few_photons_straight_from_the_light_are_found() {
+    let with_direct = Variation { direct_stored: true, ..Variation::default() };
+    let mut rand = photon_random(80, 80);
+    let light = create_light().position.as_vec3();
+    let is_straight = |record: &PhotonRecord| {
+        (light - record.position).normalize().dot(record.to_light) > 1.0 - 1e-7
+    };
+    // A hundredth of the list, and a twentieth.
+    for part in [0.002, 0.01] {
+        let mut records = records(with_direct, 80, EMITTED);
+        records.retain(|record| !is_straight(record) || rand() < part);
+        let columns = Columns { to_light: true, ..Columns::default() };
+        let observation = observed(records, columns);
+        for emitted in [None, Some(EMITTED as f64)] {
+            let judgement = judge(&observation, emitted, emitted.is_some(), &EXPECTATIONS);
+            let mut faults = judgement.findings.iter().filter(|it| it.is_fault());
+            assert!(faults.any(|it| it.check == "indirect only"), "{part}");
+        }
+    }
+}
+
+#[test]
+fn photons_straight_from_the_light_alone_are_seen_by_their_places() {
+    let with_direct = Variation { direct_stored: true, ..Variation::default() };
+    let mut records = records(with_direct, 81, EMITTED);
+    let light = create_light().position.as_vec3();
+    records
+        .retain(|record| (light - record.position).normalize().dot(record.to_light) > 1.0 - 1e-7);
+    let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
+    let fault = judgement.findings.iter().find(|it| it.is_fault()).expect("a fault");
     assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
 }
 

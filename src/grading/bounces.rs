@@ -72,7 +72,7 @@ pub fn bounce_findings(
         section: Some(Section::PhotonStorage.title()),
         expected: "on every facet as many photons of every bounce as the scene leaves there"
             .to_owned(),
-        found: if passed { "so it is" } else { "other numbers" }.to_owned(),
+        found: if passed { "as many as expected" } else { "not as many as expected" }.to_owned(),
         p_value: Some(p_value),
         passed,
         // Positions alone are asked for; a column that counts otherwise is no fault.

@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use super::intake::HandedIn;
 use super::submission::{Graded, Settings, Submission, remark, unreadable};
 use super::text::printable;
+use super::verdict::SAME_FILES;
 
 /// The grade of `handed_in`, by `grade` unless its files say before that there is nothing to grade.
 /// A fault of the grader is no fault of the student, but the grade must say what happened.
@@ -29,6 +30,10 @@ pub fn grade_one(
         .notes
         .iter()
         .map(|note| remark("files", "one photon list, one picture, or both", note, ""));
-    graded.grade.findings.extend(notes);
+    let twins = handed_in
+        .twins
+        .iter()
+        .map(|note| remark(SAME_FILES, "files of the student's own", note, ""));
+    graded.grade.findings.extend(notes.chain(twins));
     graded
 }

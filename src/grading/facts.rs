@@ -96,7 +96,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "same place",
             storage,
             "positions with at least four decimals",
-            format!("positions have {decimals}: whether photons hit the triangle they leave cannot be told"),
+            format!("positions have {decimals} decimals: whether photons hit the triangle they leave cannot be told"),
             false,
             Weight::Remark,
             "Write positions with all their digits, such as nine.",
@@ -126,9 +126,29 @@ pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> F
     }
 }
 
+/// The check of photons that come straight from the light.
+pub fn straight_from_the_light(found: String, passed: bool) -> Finding {
+    Finding {
+        check: "indirect only",
+        section: Some(Section::PhotonStorage.title()),
+        expected: "photons that have bounced, not those straight from the light".to_owned(),
+        found,
+        p_value: None,
+        passed,
+        weight: if passed { Weight::Remark } else { Weight::Grave },
+        advice: if passed { "" } else { "Do not store a photon while the size of 'path' is 1." }
+            .into(),
+    }
+}
+
 /// What costs nothing, since the handout says that positions are sufficient.
-/// `emitted` is how many photons were sent out by the word of the course.
-pub fn remarks(observation: &Observation, emitted: Option<f64>) -> Vec<Finding> {
+/// `emitted` is how many photons were sent out by the word of the course, and `is_ruled_out` whether the photons
+/// lie where those straight from the light do not.
+pub fn remarks(
+    observation: &Observation,
+    emitted: Option<f64>,
+    is_ruled_out: bool,
+) -> Vec<Finding> {
     let remark = |check, expected: &str, found: String, passed, advice: &'static str| Finding {
         check,
         section: Some(Section::PhotonStorage.title()),
@@ -200,15 +220,20 @@ pub fn remarks(observation: &Observation, emitted: Option<f64>) -> Vec<Finding> 
         return findings;
     }
     let is_indirect = to_the_light as f64 <= (MOST_STRAIGHT * set as f64).max(3.0);
-    findings.push(Finding {
-        weight: if is_indirect { Weight::Remark } else { Weight::Grave },
-        ..remark(
-            "indirect only",
-            "photons that have bounced, not those straight from the light",
-            format!("{to_the_light} of {set} come straight from the light"),
-            is_indirect,
-            "Do not store a photon while the size of 'path' is 1.",
+    findings.push(if !is_indirect && is_ruled_out {
+        remark(
+            "to_light source",
+            "directions to where the photon came from",
+            format!(
+                "{to_the_light} of {set} point straight to the light, but the photons do not lie where \
+                 those straight from the light do"
+            ),
+            false,
+            "Set 'toLightRay' to a ray in the opposite direction of the photon ray that came here.",
         )
+    } else {
+        let found = format!("{to_the_light} of {set} come straight from the light");
+        straight_from_the_light(found, is_indirect)
     });
     findings
 }

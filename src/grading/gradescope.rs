@@ -40,7 +40,7 @@ pub fn results(grade: &Grade, best: f64, seconds: f64) -> Results<'_> {
         number: (at + 1).to_string(),
         output: text::finding(finding),
         output_format: "text",
-        visibility: "visible",
+        visibility: if finding.is_of_others() { "hidden" } else { "visible" },
         extra_data: finding,
     });
     Results {

@@ -49,6 +49,8 @@ pub struct HandedIn {
     pub problem: Option<String>,
     /// What was left out.
     pub notes: Vec<String>,
+    /// Which others have the same files.
+    pub twins: Vec<String>,
 }
 
 /// The submissions named by `paths`, in that order: a student's folder is one, a file is one, a list and a
@@ -131,7 +133,7 @@ fn tell_twins(all: &mut [HandedIn]) {
                     names.map(|other| all[*other].submission.name.clone()).collect();
                 if !names.is_empty() {
                     let what = if is_list { "photon list" } else { "picture" };
-                    all[*at].notes.push(format!(
+                    all[*at].twins.push(format!(
                         "the {what} is the same, byte by byte, as that of {}; two right programs with \
                          the same random numbers may write the same",
                         names.join(", ")

@@ -3,10 +3,11 @@
 use std::sync::OnceLock;
 
 use super::bounces::bounce_findings;
+use super::direct::{is_ruled_out, shows_direct};
 use super::facts::{enough, plain_findings, remarks};
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
 use super::naming::{Explanation, Known, can_show, name};
-use super::number::{SLIPS, contradiction, slip_finding};
+use super::number::{SLIPS, cannot_be, contradiction, impossible, slip_finding};
 use super::observation::Observation;
 use super::picture::expectations::PictureExpectations;
 use super::places::Places;
@@ -50,7 +51,7 @@ pub struct Expectations {
     /// The signatures of all hypotheses.
     pub signatures: Signatures,
     fair: Vec<Hypothesis>,
-    misreadings: Vec<Hypothesis>,
+    pub(super) misreadings: Vec<Hypothesis>,
     /// What pictures are held against: most classes hand in none.
     pictures: OnceLock<PictureExpectations>,
 }
@@ -114,6 +115,10 @@ pub fn judge(
         if let Some((slip, of_slip)) = fitting {
             findings.push(slip_finding(slip, number, trial.p_value));
             trial = of_slip;
+        } else if by_shape.p_value >= SIGNIFICANCE && cannot_be(number, observation.records as f64)
+        {
+            findings.push(impossible(number, by_shape.emitted, trial.p_value));
+            trial = by_shape;
         } else if by_shape.p_value >= SIGNIFICANCE {
             findings.push(contradiction(number, by_shape.emitted, trial.p_value));
             trial = by_shape;
@@ -128,6 +133,13 @@ pub fn judge(
             }
         }
     }
+    let is_ruled_out =
+        trial.p_value >= SIGNIFICANCE && is_ruled_out(observation, trial.emitted, expectations);
+    let of_columns = remarks(observation, emitted.filter(|_| emitted_by_user), is_ruled_out);
+    let is_told = of_columns.iter().chain(&findings).any(Finding::is_fault);
+    if is_off && explanation.is_none() && !is_told {
+        findings.extend(shows_direct(observation, expectations));
+    }
     let shows_plainly = findings.iter().any(Finding::is_fault);
     let reading = expectations.fair[trial.reading].clone();
     let signature = expectations.signatures.fair[trial.reading].clone();
@@ -139,7 +151,7 @@ pub fn judge(
     findings.push(enough(observation, emitted, trial.emitted));
     // What is wrong elsewhere shows in the bounces too, and is no matter of how they are counted.
     findings.extend(of_bounces.into_iter().filter(|finding| finding.is_fault() || !is_off));
-    findings.extend(remarks(observation, emitted.filter(|_| emitted_by_user)));
+    findings.extend(of_columns);
     Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
 }
 

@@ -20,8 +20,9 @@
 pub mod axes;
 pub mod bounces;
 pub mod class;
+pub mod direct;
 pub mod exact;
-pub mod facts;
+mod facts;
 pub mod gradescope;
 pub mod hypotheses;
 pub mod intake;

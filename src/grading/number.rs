@@ -16,13 +16,22 @@ pub struct Slip {
     factor: f64,
 }
 
-/// Those that belong to powers, fluxes and responses of light.
-pub const SLIPS: [Slip; 4] = [
+/// Those that belong to powers, fluxes and responses of light, and a light that was made brighter by hand. No other
+/// factor is below 1: it would excuse as many photons missing.
+pub const SLIPS: [Slip; 8] = [
     Slip { name: "4 pi", factor: 4.0 * PI },
+    Slip { name: "2 pi", factor: 2.0 * PI },
+    Slip { name: "10", factor: 10.0 },
+    Slip { name: "100", factor: 100.0 },
+    Slip { name: "1000", factor: 1000.0 },
     Slip { name: "pi", factor: PI },
     Slip { name: "1/pi", factor: 1.0 / PI },
     Slip { name: "1/(4 pi)", factor: 0.25 / PI },
 ];
+
+/// No mistake stores more than this part of the photons sent out, unless it stores some twice: with those straight
+/// from the light, it is 0.29.
+const MOST_STORED: f64 = 1.0 / 3.0;
 
 impl Slip {
     /// How many photons were sent out, where the intensity has this factor and says `number`.
@@ -42,6 +51,23 @@ pub fn slip_finding(slip: Slip, number: f64, p_value: f64) -> Finding {
         weight: Weight::Remark,
         advice: "Set 'intensity' to lightIntensity as it is.".into(),
         ..contradiction(number, slip.emitted(number), p_value)
+    }
+}
+
+/// Whether an intensity that says `number` cannot be right where `stored` photons were stored.
+pub fn cannot_be(number: f64, stored: f64) -> bool {
+    stored > MOST_STORED * number
+}
+
+/// The remark that the intensity says `number`, which cannot be.
+pub fn impossible(number: f64, fitted: f64, p_value: f64) -> Finding {
+    Finding {
+        found: format!(
+            "the intensity says {number:.0} sent out, which cannot be: the photons fit {fitted:.0}"
+        ),
+        weight: Weight::Remark,
+        advice: "Set 'intensity' to lightIntensity as it is.".into(),
+        ..contradiction(number, fitted, p_value)
     }
 }
 

@@ -73,9 +73,17 @@ pub struct Grade {
     pub findings: Vec<Finding>,
 }
 
+/// The check of files that two students have in common.
+pub const SAME_FILES: &str = "same files";
+
 impl Finding {
     /// Whether it speaks against the submission.
     pub fn is_fault(&self) -> bool {
         !self.passed && self.weight != Weight::Remark
+    }
+
+    /// Whether it names other students, and so is for the course alone.
+    pub fn is_of_others(&self) -> bool {
+        self.check == SAME_FILES
     }
 }

@@ -61,14 +61,25 @@ pub(super) fn read(
         }
         Ok((length > 0).then_some(number))
     };
-    if next_line(&mut line)?.is_none() {
-        return Err(ListError::malformed(path, "expected a photon list, found an empty file"));
+    let mut first = next_line(&mut line)?;
+    if first.is_none() {
+        return Err(ListError::malformed(path, "the file is empty: it has no bytes at all"));
     }
+    while let Some(number) = first.filter(|_| is_before_the_list(&line)) {
+        if number > MOST_EMPTY_LINES {
+            let message = format!("line {number}: expected fewer lines of comment");
+            return Err(ListError::malformed(path, message));
+        }
+        first = next_line(&mut line)?;
+    }
+    let Some(first) = first else {
+        return Err(ListError::malformed(path, "expected a photon list, found only comments"));
+    };
     let dialect = Dialect::of(&line)
-        .map_err(|message| ListError::malformed(path, format!("line 1: {message}")))?;
+        .map_err(|message| ListError::malformed(path, format!("line {first}: {message}")))?;
     let places = &dialect.naming.places;
     let mut empty = 0;
-    let mut at = if dialect.has_header { next_line(&mut line)? } else { Some(1) };
+    let mut at = if dialect.has_header { next_line(&mut line)? } else { Some(first) };
     while let Some(number) = at {
         let row = line.trim_start_matches('\u{feff}').trim();
         if row.is_empty() {
@@ -87,9 +98,18 @@ pub(super) fn read(
     Ok(dialect.naming)
 }
 
-/// Whether `line` could be the first of a list.
-pub(super) fn is_first_line(line: &str) -> bool {
-    Dialect::of(line).is_ok()
+/// Whether a list could start like `start`, which may end within a line.
+pub(super) fn is_start(start: &str) -> bool {
+    let first = start.lines().find(|line| !is_before_the_list(line));
+    first.is_some_and(|line| Dialect::of(line).is_ok())
+}
+
+/// Whether `line` is a comment, or the line that tells Excel what is between values: `#` may also come before the
+/// names of the columns.
+fn is_before_the_list(line: &str) -> bool {
+    let line = line.trim_start_matches('\u{feff}').trim().trim_matches('"');
+    line.to_ascii_lowercase().starts_with("sep=")
+        || (line.starts_with('#') && Dialect::of(line).is_err())
 }
 
 fn record(row: &str, dialect: &Dialect, places: &[Option<usize>]) -> Result<PhotonRecord, String> {

@@ -70,10 +70,13 @@ impl Scalar {
         }
     }
 
-    /// The value of as many little-endian bytes as the type has.
-    fn value(self, bytes: &[u8]) -> Value<'static> {
+    /// The value of as many bytes as the type has.
+    fn value(self, bytes: &[u8], big_endian: bool) -> Value<'static> {
         let mut wide = [0; 8];
         wide[..bytes.len()].copy_from_slice(bytes);
+        if big_endian {
+            wide[..bytes.len()].reverse();
+        }
         let whole = u64::from_le_bytes(wide);
         match self {
             Self::I8 => Value::Whole(i64::from(whole as i8)),
@@ -88,6 +91,7 @@ impl Scalar {
 
 struct Header {
     binary: bool,
+    big_endian: bool,
     /// Whether nothing but the vertices follows.
     only_vertices: bool,
     comments: Vec<String>,
@@ -138,7 +142,9 @@ pub(super) fn read(
                 let (bytes, after) = rest.split_at(scalar.bytes());
                 rest = after;
                 if let Some(place) = *place {
-                    record.set(place, scalar.value(bytes)).ok_or_else(|| wrong(name))?;
+                    record
+                        .set(place, scalar.value(bytes, header.big_endian))
+                        .ok_or_else(|| wrong(name))?;
                 }
             }
         } else {
@@ -168,7 +174,7 @@ pub(super) fn read(
 
 fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListError> {
     let mut line = String::new();
-    let mut binary = None;
+    let mut format = None;
     let mut count = None;
     let mut in_vertex = false;
     let mut only_vertices = true;
@@ -186,11 +192,12 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
                 comments.push(comment.to_owned());
             }
             ["ply"] | ["obj_info", ..] | [] => {}
-            ["format", format, _] => {
-                binary = Some(match *format {
-                    "binary_little_endian" => true,
-                    "ascii" => false,
-                    _ => return Err(error("expected the format binary_little_endian or ascii")),
+            ["format", name, _] => {
+                format = Some(match *name {
+                    "binary_little_endian" => (true, false),
+                    "binary_big_endian" => (true, true),
+                    "ascii" => (false, false),
+                    _ => return Err(error("expected a format that PLY knows, such as ascii")),
                 });
             }
             ["element", "vertex", number] => {
@@ -211,12 +218,14 @@ fn read_header(input: &mut impl BufRead, path: &Path) -> Result<Header, ListErro
             }
             ["property", ..] if !in_vertex => {}
             ["end_header"] => {
-                let (Some(binary), Some(count)) = (binary, count) else {
+                let (Some((binary, big_endian)), Some(count)) = (format, count) else {
                     return Err(error(
                         "expected 'format' and 'element vertex' before 'end_header'",
                     ));
                 };
-                return Ok(Header { binary, only_vertices, comments, count, properties });
+                let header =
+                    Header { binary, big_endian, only_vertices, comments, count, properties };
+                return Ok(header);
             }
             _ => return Err(error("expected a line of a PLY header of plain properties")),
         }

@@ -68,8 +68,9 @@ pub fn load_at_most(path: &Path, most: usize) -> Result<(PhotonList, Option<Stri
 pub fn starts_like_a_list(path: &Path) -> io::Result<bool> {
     let mut start = Vec::new();
     File::open(path)?.take(LONGEST_START).read_to_end(&mut start)?;
-    let line = start.split(|byte| *byte == b'\n').next().unwrap_or_default();
-    Ok(is_ply(&start) || std::str::from_utf8(line).is_ok_and(csv::is_first_line))
+    // It may end within a letter.
+    let text = start.utf8_chunks().next().map_or("", |chunk| chunk.valid());
+    Ok(is_ply(&start) || csv::is_start(text))
 }
 
 /// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record.

@@ -310,7 +310,8 @@ fn findings(grade: &Grade, said: Option<&str>) -> Markup {
     // What several findings advise is said once.
     let mut said: HashSet<&str> = said.into_iter().collect();
     let mut card = |finding| card(finding, &mut said);
-    let (faults, others): (Vec<_>, Vec<_>) = grade.findings.iter().partition(|f| f.is_fault());
+    let (faults, others): (Vec<_>, Vec<_>) =
+        grade.findings.iter().filter(|f| !f.is_of_others()).partition(|f| f.is_fault());
     let (passed, remarks): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| f.passed);
     html! {
         @if !faults.is_empty() { h2 { "What is wrong" } }

@@ -14,6 +14,8 @@ pub const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB. It
 /// bounds what a decoder has to unpack, too.
 const MOST_BYTES: u64 = 4 << 20;
+/// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the longest format.
+const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
 /// What the decoder may allocate besides the picture.
 const MOST_MEMORY: u64 = 16 << 20;
 /// What other pictures start with, and what they are.
@@ -102,6 +104,13 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
         return Err(format!("it is grey, and dots are red: {WANTED}"));
     }
     let picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    let rgb = picture.to_rgb8();
+    let first = *rgb.get_pixel(0, 0);
+    if bytes.len() > MOST_UNPACKED && rgb.pixels().all(|pixel| *pixel == first) {
+        return Err(
+            "it has far more data than its pixels, which are all alike, can need".to_owned()
+        );
+    }
     if picture.color().has_alpha() {
         let with_alpha = picture.to_rgba8();
         let first = with_alpha.get_pixel(0, 0).0[3];
@@ -109,5 +118,5 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
             return Err(format!("some of it is transparent: {WANTED}"));
         }
     }
-    Ok(picture.to_rgb8())
+    Ok(rgb)
 }

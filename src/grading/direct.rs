@@ -1,0 +1,78 @@
+//! Photons straight from the light, by where photons lie.
+
+use super::facts::straight_from_the_light;
+use super::judge_list::{Expectations, LEEWAY};
+use super::observation::Observation;
+use super::signature::{Signature, classes};
+use super::statistics::towards;
+use super::verdict::{Finding, Weight};
+
+/// So many standard deviations apart are the counts with such photons and without, at least, before the counts
+/// decide: each half is far out in either tail.
+const APART: f64 = 8.0;
+/// A facet has so many times the share that it has under any mistake but this one, before it tells.
+const PLAINLY: f64 = 5.0;
+/// On so few photons, it does not.
+const FEWEST: f64 = 50.0;
+
+/// Whether so many photons straight from the light as the directions say are ruled out by the counts, which fit
+/// `emitted` sent out: straight from the light come far more to the tops of the boxes, say, than by a bounce.
+pub fn is_ruled_out(observation: &Observation, emitted: f64, expectations: &Expectations) -> bool {
+    let Some(to_light) = observation.to_light else { return false };
+    let (reference, Some(stored)) = (&expectations.signatures.fair[0], with_direct(expectations))
+    else {
+        return false;
+    };
+    let direct = stored.classes.iter().zip(&reference.classes).map(|(all, other)| all - other);
+    let direct: Vec<f64> = direct.map(|mean| mean.max(0.0)).collect();
+    let part = to_light.to_the_light as f64 / direct.iter().sum::<f64>();
+    let law = reference.law_of_classes(LEEWAY);
+    // The number is left open: a list may be short of others.
+    let deviations = |counts: &[f64]| towards(counts, &law, &stored.classes, None);
+    let expected =
+        law.mean.iter().zip(&direct).map(|(mean, direct)| emitted * mean + part * direct);
+    let expected = deviations(&expected.collect::<Vec<_>>());
+    let found = deviations(&classes(&observation.counts, &expectations.places));
+    expected > APART && found < 0.5 * expected
+}
+
+fn with_direct(expectations: &Expectations) -> Option<&Signature> {
+    let mut hypotheses = expectations.misreadings.iter();
+    let at = hypotheses.position(|hypothesis| hypothesis.id == "direct-stored")?;
+    expectations.signatures.misreadings.get(at)
+}
+
+/// The fault that a facet has more photons than any mistake leaves there that stores none straight from the light.
+pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> Option<Finding> {
+    // Where self-hits cannot be told from others, they may be what there is too much of.
+    if observation.few_decimals.is_some() {
+        return None;
+    }
+    let places = &expectations.places;
+    let signatures = &expectations.signatures;
+    let counts = classes(&observation.distinct, places);
+    let all: f64 = counts.iter().sum();
+    let share = |signature: &Signature, class: usize| {
+        signature.classes[class] / signature.classes.iter().sum::<f64>()
+    };
+    let misreadings = expectations.misreadings.iter().zip(&signatures.misreadings);
+    // What gets below surfaces shows beneath the boxes.
+    let indirect = misreadings
+        .filter(|(hypothesis, _)| !["direct-stored", "flipped-normal"].contains(&hypothesis.id))
+        .map(|(_, signature)| signature);
+    let indirect: Vec<_> = signatures.fair.iter().chain(indirect).collect();
+    (0..places.facets.len()).find_map(|class| {
+        let most = indirect.iter().map(|signature| share(signature, class)).fold(0.0, f64::max);
+        (counts[class] > (PLAINLY * most * all).max(FEWEST)).then(|| Finding {
+            weight: Weight::Grave,
+            ..straight_from_the_light(
+                format!(
+                    "{:.0} of {all:.0} lie on {}, where hardly any come but straight from the light",
+                    counts[class],
+                    places.class_name(class)
+                ),
+                false,
+            )
+        })
+    })
+}
