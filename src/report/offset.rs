@@ -214,7 +214,7 @@ fn signed_percent(change: f64) -> String {
     if change == 0.0 { "0 %".to_owned() } else { format!("{:+.2} %", 100.0 * change) }
 }
 
-/// Wrong photons over scale, and over displacement. Zeros are drawn at what they leave likely.
+/// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be seen.
 fn plot(cases: &[Case]) -> String {
     let shown = [
         (Rule::None, Mark::Circles),
@@ -227,8 +227,8 @@ fn plot(cases: &[Case]) -> String {
         let line = |(colour, (rule, mark)): (usize, &(Rule, Mark))| {
             let of_rule = cases.iter().filter(|case| case.rule == *rule);
             let point = |case: &Case| {
-                let least = most_per_million(case.emitted);
-                let wrong = if case.wrong() == 0.0 { least } else { case.wrong() };
+                let half_a_photon = 0.5e6 / case.emitted as f64;
+                let wrong = if case.wrong() == 0.0 { half_a_photon } else { case.wrong() };
                 Some((amount(case.place)?, wrong))
             };
             Line {
@@ -244,7 +244,7 @@ fn plot(cases: &[Case]) -> String {
     let axes = |title: &str, x: &str| Axes {
         title: title.to_owned(),
         x: x.to_owned(),
-        y: "wrong per million emitted (0: at its 95 % bound)".to_owned(),
+        y: "wrong per million emitted (0: as half a photon)".to_owned(),
     };
     let scaled = lines(|place| match place {
         Place::Scaled(factor) => Some(factor),
