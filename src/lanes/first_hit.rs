@@ -181,13 +181,12 @@ mod tests {
         for number in 0..300 {
             let mut random = photon_random(11, number);
             let mut point = || Vec3::from_array([0; 3].map(|_| (random() * 7.0).floor() - 3.0));
-            let triangles: Vec<Triangle> = (0..12)
-                .map(|_| Triangle {
-                    vertices: [point(), point(), point()],
-                    normal: Vec3::Z,
-                    parent_mesh_object: 0,
-                    facet: 0,
-                })
+            // Every other one is the back of the one before.
+            let triangle =
+                |vertices| Triangle { vertices, normal: Vec3::Z, parent_mesh_object: 0, facet: 0 };
+            let triangles: Vec<Triangle> = (0..6)
+                .map(|_| triangle([point(), point(), point()]))
+                .flat_map(|front| [front, Triangle { normal: Vec3::NEG_Z, ..front }])
                 .collect();
             let light = point();
             let mut targets: Vec<Vec3> = (0..20).map(|_| point()).collect();
