@@ -273,15 +273,16 @@ impl Search {
         }
         for lane in (0..IN_LEAF).filter(|lane| may_be_met[*lane]) {
             let of_lane = |corner: &[Four; 3]| Vec3::from_array(corner.map(|axis| axis[lane]));
-            let index = leaf.indices[lane];
-            let triangle = &triangles[index as usize];
-            let t = meet([of_lane(a), of_lane(b), of_lane(c)]);
-            let Some(t) = t.filter(|t| self.sheared.reaches(triangle, *t) && of(triangle, *t))
-            else {
+            let Some(t) = meet([of_lane(a), of_lane(b), of_lane(c)]) else {
                 continue;
             };
+            let index = leaf.indices[lane];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
-            if t < self.closest || is_tie {
+            // The triangle itself is far away in memory, so it is asked last.
+            if (t < self.closest || is_tie)
+                && self.sheared.reaches(|| &triangles[index as usize], t)
+                && of(&triangles[index as usize], t)
+            {
                 (self.closest, self.index) = (t, index);
             }
         }

@@ -74,8 +74,11 @@ impl ShearedRay {
 
     /// Whether the ray meets `triangle` at the distance `t` by what is known of its start: see [`Ray::start_error`].
     #[inline(always)]
-    pub(crate) fn reaches(&self, triangle: &Triangle, t: f32) -> bool {
-        let cosine = self.direction.dot(triangle.normal);
+    pub(crate) fn reaches<'a>(&self, triangle: impl FnOnce() -> &'a Triangle, t: f32) -> bool {
+        if self.start_error == 0.0 {
+            return t > 0.0;
+        }
+        let cosine = self.direction.dot(triangle().normal);
         if cosine <= 0.0 { t > -self.start_error } else { t * cosine > self.start_error }
     }
 
@@ -119,7 +122,7 @@ impl Triangle {
     /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
     pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
         let t = meet(self.vertices.map(|vertex| ray.see(vertex)))?;
-        ray.reaches(self, t).then_some(t)
+        ray.reaches(|| self, t).then_some(t)
     }
 
     /// Whether the two have a corner in common, or `other` lies in this one's plane, no farther than `rounding`.
