@@ -341,6 +341,23 @@ fn degenerate_triangles_are_skipped() {
 }
 
 #[test]
+fn normal_of_the_file_off_its_plane_only_chooses_the_side() {
+    let normal = |vn: &str| {
+        let text = format!("{CORNERS}vn {vn}\nf 1//1 2//1 4//1\n");
+        model(&text, "0.5 0.5 0.5").map(|model| model.triangles[0].normal)
+    };
+    // The model has y up, so its z is the scene's -y.
+    assert_eq!(normal("1 0 1"), Ok(Vec3::NEG_Y));
+    assert_eq!(normal("1 0 -1"), Ok(Vec3::Y));
+    // As in the handout's file, whose normals have five digits.
+    for side in [1.0, -1.0] {
+        let as_written = Vec3::new(0.0002, -side, 0.0).normalize();
+        let of_file = normal(&format!("0.0002 0 {side}")).unwrap();
+        assert!(of_file.x != 0.0 && of_file.distance(as_written) < 1e-6, "{of_file}");
+    }
+}
+
+#[test]
 fn degenerate_triangles_alone_are_refused() {
     let error = model(&format!("{CORNERS}f 1 2 3\nf 1 1 4\n"), "0.5 0.5 0.5").unwrap_err();
     assert!(error.contains(":8:") && error.contains("only degenerate ones (2)"), "{error}");

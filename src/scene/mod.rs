@@ -126,11 +126,7 @@ impl Scene {
     /// With a `state`, it is filled with the closest hit; of two at the same distance, the one of
     /// the triangle that comes first. Without one, any hit will do.
     ///
-    /// A ray that meets the back of a surface is looked at once more, since rounding may be the cause. Where
-    /// it touches the edge of a solid, it enters and leaves at once, and the back may seem to be before the
-    /// front; where it grazes the surface below which it started, the [`Ray::start_error`] may have been too
-    /// short. So a back yields to the front of a neighbour at the same place, which shares a corner or its plane, and
-    /// to any front within the error of the start.
+    /// A back yields to the front beside it, if there is one: rounding alone put the back first.
     pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
         let Some(state) = state else {
             return match &self.tree {
@@ -138,25 +134,11 @@ impl Scene {
                 None => self.hits(ray).next().is_some(),
             };
         };
-        let direction = ray.ray_direction();
-        let mut closest = self.closest(ray, |_, _| true);
-        if let Some((index, t)) = closest.filter(|hit| !self.triangles[hit.0].faces(direction)) {
-            let mut again = *ray;
-            let rounding = self.rounding(index, ray.ray_position(t), t);
-            again.max_t = ray.max_t.min(t + NEAR * rounding);
-            again.start_error = NEAR * ray.start_error;
-            let back = &self.triangles[index];
-            let is_front = |triangle: &Triangle, t: f32| {
-                let depth_of_start = t * direction.dot(triangle.normal);
-                let counts = if t > 0.0 {
-                    back.touches(triangle, 0.25 * rounding)
-                } else {
-                    depth_of_start <= ray.start_error
-                };
-                triangle.faces(direction) && counts
-            };
-            closest = self.closest(&again, is_front).or(closest);
-        }
+        let is_front = |index: usize| self.triangles[index].faces(ray.ray_direction());
+        let closest = match self.closest(ray, |_, _| true) {
+            Some(hit) if !is_front(hit.0) => Some(self.front_beside(ray, hit).unwrap_or(hit)),
+            hit => hit,
+        };
         if let Some((index, t)) = closest {
             *state = IntersectionState {
                 intersection_ray: *ray,
@@ -165,6 +147,30 @@ impl Scene {
             };
         }
         closest.is_some()
+    }
+
+    /// The front that `ray` met in truth where rounding gives it a back, at the distance `t` on the triangle
+    /// `index`; `None` where it met the back.
+    ///
+    /// Where a ray touches the edge of a solid, it enters and leaves at once, and the back may seem to be before
+    /// the front: then there is the front of a neighbour at the same place, which shares a corner or its plane.
+    /// Where it grazes a surface below which it started, the [`Ray::start_error`] was too short: then that front is
+    /// within the error of the start.
+    fn front_beside(&self, ray: &Ray, (index, t): (usize, f32)) -> Option<(usize, f32)> {
+        let (back, direction) = (&self.triangles[index], ray.ray_direction());
+        let rounding = self.rounding(index, ray.ray_position(t), t);
+        let mut near = *ray;
+        near.max_t = ray.max_t.min(t + NEAR * rounding);
+        near.start_error = NEAR * ray.start_error;
+        self.closest(&near, |triangle, t| {
+            let depth_of_start = t * direction.dot(triangle.normal);
+            triangle.faces(direction)
+                && if t > 0.0 {
+                    back.touches(triangle, 0.25 * rounding)
+                } else {
+                    depth_of_start <= ray.start_error
+                }
+        })
     }
 
     /// The closest of the hits `of` of `ray` before its `max_t`: a triangle and its distance.
