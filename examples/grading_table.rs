@@ -8,6 +8,7 @@ use photon_mapping::assignment8::{create_light, create_scene};
 use photon_mapping::grading::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use photon_mapping::grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use photon_mapping::grading::observation::observe;
+use photon_mapping::grading::pairs::pairs;
 use photon_mapping::grading::places::{Place, Places};
 use photon_mapping::grading::signature::{Effort, Signatures};
 use photon_mapping::grading::variation::{FACETS, Simulation, Variation};
@@ -45,10 +46,11 @@ fn main() {
     let places = Places::new(&create_scene());
     let expectations = Expectations::new(places.clone(), Signatures::of_assignment8());
     println!("# How good the grader is with lists\n");
-    false_alarms(alarms, &expectations);
-    let small_limit = Signatures::measure(&places, 3, Effort::QUICK);
+    let small_limit = Signatures::measure(&places, SMALL_LIMIT, Effort::QUICK);
     let with_small_limit = Expectations::new(places, small_limit);
+    false_alarms(alarms, &expectations, &with_small_limit);
     detection(seeds, &expectations, &with_small_limit);
+    two_at_once(seeds, &expectations);
 }
 
 /// Numbers for the settings of a simulated submission.
@@ -64,20 +66,25 @@ impl Settings {
     }
 }
 
-fn false_alarms(count: u64, expectations: &Expectations) {
+fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expectations) {
     // Most of the time goes to the largest lists, so they are fewer.
-    let decades = [(1e4, 1e5, count / 2), (1e5, 1e6, 7 * count / 20), (1e6, 1e7, 3 * count / 20)];
+    let decades = [
+        (1e4, 1e5, count / 2, expectations),
+        (1e5, 1e6, 7 * count / 20, expectations),
+        (1e6, 1e7, 3 * count / 20, expectations),
+        (1e4, 1e6, count / 4, with_small_limit),
+    ];
     println!("## Correct submissions called incorrect\n");
     println!(
         "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to 1e-3 along \
          the new direction, positions up to 0.007 off their surface, two generators, with and without the \
-         number of photons. p is the smallest of a list, corrected for the number of tests; below \
+         number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a list, corrected for the number of tests; below \
          {SIGNIFICANCE:.0e} it is called incorrect.\n"
     );
     println!("| sent out | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
     println!("|---|---|---|---|---|---|");
     let mut all = [0; 5];
-    for (decade, (low, high, count)) in decades.into_iter().enumerate() {
+    for (decade, (low, high, count, expectations)) in decades.into_iter().enumerate() {
         let p_values: Vec<(f64, bool)> = (0..count)
             .into_par_iter()
             .map(|index| {
@@ -92,7 +99,13 @@ fn false_alarms(count: u64, expectations: &Expectations) {
             below(1e-4),
             p_values.iter().filter(|(_, is_alarm)| *is_alarm).count(),
         ];
-        println!("| {low:.0e} to {high:.0e} | {} |", row.map(|n| n.to_string()).join(" | "));
+        let max_bounces = expectations.signatures.max_bounces;
+        let bounces = match max_bounces {
+            SMALL_LIMIT => format!(", at most {max_bounces} bounces"),
+            _ => String::new(),
+        };
+        let row_of_text = row.map(|n| n.to_string()).join(" | ");
+        println!("| {low:.0e} to {high:.0e}{bounces} | {row_of_text} |");
         all.iter_mut().zip(row).for_each(|(sum, n)| *sum += n);
     }
     println!("| all | {} |\n", all.map(|n| n.to_string()).join(" | "));
@@ -115,7 +128,8 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
         },
     };
     let variation = Variation { reading, ..Variation::default() };
-    let simulation = Simulation::new(variation, 7_000_000 + index, emitted, 1000);
+    let max_bounces = expectations.signatures.max_bounces;
+    let simulation = Simulation::new(variation, 7_000_000 + index, emitted, max_bounces);
     let other_generator = emitted <= 200_000 && settings.one_of(&[true, false]);
     let mut records = if other_generator {
         simulation.trace_with(0..emitted, Drand48::new(index))
@@ -254,10 +268,55 @@ fn detection(seeds: u64, expectations: &Expectations, with_small_limit: &Expecta
         }
         println!();
     }
-    println!("`bounce-off-by-one` is judged with `--max-bounces 3`.");
+    println!("`bounce-off-by-one` is judged with `--max-bounces {SMALL_LIMIT}`.\n");
+}
+
+/// Lists in which two misreadings were made, which no single name tells.
+fn two_at_once(seeds: u64, expectations: &Expectations) {
+    let (pairs, singles) = (pairs(), misreadings());
+    println!("## Two misreadings at once\n");
+    println!(
+        "Lists of {EMITTED} photons sent out, of {} pairs of misreadings in turn, which have no name: what was \
+         told of them.\n",
+        pairs.len()
+    );
+    println!(
+        "| what is known | correct | no name | these two | two others | one of both | a third |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for (content, what) in CONTENTS.into_iter().zip(["positions alone", "and the number", "all"]) {
+        let tell = |seed: u64| {
+            let pair = &pairs[seed as usize % pairs.len()];
+            let simulation = Simulation::new(pair.variation, 11_000_000 + seed, EMITTED, 1000);
+            let judgement = judged(simulation.trace(0..EMITTED), EMITTED, content, expectations);
+            let is_correct = !judgement.findings.iter().any(|finding| finding.is_fault());
+            let is_of = |id: &str| {
+                let ways = singles.iter().filter(|single| single.id == id);
+                ways.map(|way| &way.title).any(|title| pair.title.contains(title))
+            };
+            match (judgement.explanation, judgement.pair) {
+                _ if is_correct => 0,
+                (None, None) => 1,
+                (None, Some(told)) if pair.title.contains(&told.hypothesis.title) => 2,
+                (None, Some(told)) if told.hypothesis.title.contains(&pair.title) => 2,
+                (None, Some(_)) => 3,
+                (Some(named), _) if is_of(named.hypothesis.id) => 4,
+                (Some(named), _) => {
+                    eprintln!("{what}: {} was named {}", pair.title, named.hypothesis.id);
+                    5
+                }
+            }
+        };
+        let mut row = [0; 6];
+        let told: Vec<usize> = (0..10 * seeds).into_par_iter().map(tell).collect();
+        told.into_iter().for_each(|column| row[column] += 1);
+        println!("| {what} | {} |", row.map(|n| n.to_string()).join(" | "));
+    }
 }
 
 const EMITTED: u64 = 200_000;
+/// With so few bounces allowed, one fewer shows.
+const SMALL_LIMIT: i32 = 3;
 
 fn outcome(
     hypothesis: &Hypothesis,

@@ -67,6 +67,12 @@ pub fn fair_readings() -> Vec<Hypothesis> {
     all
 }
 
+/// Paths that end one bounce too early: unless the limit is small, nothing shows of it.
+pub const BOUNCE_OFF_BY_ONE: &str = "bounce-off-by-one";
+
+const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the absolute \
+    value with your threshold.";
+
 /// The misreadings of which the grader knows what they do.
 pub fn misreadings() -> Vec<Hypothesis> {
     let plain = Variation::default();
@@ -111,9 +117,19 @@ pub fn misreadings() -> Vec<Hypothesis> {
             "no-absolute-value",
             "photons leave the right wall along its normal: there t and b have no length",
             Section::HemisphereRayTransformation,
-            "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the \
-             absolute value with your threshold.",
+            WALL,
             Variation { reading: never_parallel(TangentBasis::LetterOfTheHandout), ..plain },
+        ),
+        known(
+            "no-absolute-value",
+            "photons leave the right wall along its normal: there t and b are left at zero",
+            Section::HemisphereRayTransformation,
+            WALL,
+            Variation {
+                reading: never_parallel(TangentBasis::Normalised),
+                zero_frame: true,
+                ..plain
+            },
         ),
         known(
             "nan-frame",
@@ -138,6 +154,20 @@ pub fn misreadings() -> Vec<Hypothesis> {
             Variation { roulette: Roulette::Red, ..plain },
         ),
         known(
+            "smallest-roulette",
+            "photons survive with the smallest channel of the diffuse response, not its largest",
+            Section::PhotonScatteringAbsorption,
+            "Equation (1): P_r = max(d_r, d_g, d_b).",
+            Variation { roulette: Roulette::Smallest, ..plain },
+        ),
+        known(
+            "luminance-roulette",
+            "photons survive with the luminance of the diffuse response, not its largest channel",
+            Section::PhotonScatteringAbsorption,
+            "Equation (1): P_r = max(d_r, d_g, d_b).",
+            Variation { roulette: Roulette::Luminance, ..plain },
+        ),
+        known(
             "transposed-frame",
             "t, b and n are the rows of the matrix, not its columns",
             Section::HemisphereRayTransformation,
@@ -152,26 +182,36 @@ pub fn misreadings() -> Vec<Hypothesis> {
             Variation { flipped_normal: true, ..plain },
         ),
         known(
-            "bounce-off-by-one",
+            BOUNCE_OFF_BY_ONE,
             "paths end one bounce too early",
             Section::PhotonStorage,
             "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.",
             Variation { fewer_bounces: 1, ..plain },
         ),
     ];
-    for most_bounces in [3, 4, 5, 6, 8, 10, 20] {
-        all.push(known(
+    // Positions alone can hardly tell one of these ways from another.
+    let no_roulette = |title: String, chance: f32, most_bounces: i32| {
+        known(
             "no-roulette",
-            &format!("every photon is scattered, up to {most_bounces} times"),
+            &title,
             Section::PhotonScatteringAbsorption,
-            "Scatter only if a random number in [0, 1) is less than P_r, and end the path otherwise.",
-            Variation { roulette: Roulette::Always, most_bounces, ..plain },
-        ));
+            "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from the \
+             material that was hit, and end the path otherwise.",
+            Variation { roulette: Roulette::Constant(chance), most_bounces, ..plain },
+        )
+    };
+    for chance in [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9] {
+        let title = format!("photons survive with the same chance, {chance}, on every material");
+        all.push(no_roulette(title, chance, i32::MAX));
+    }
+    for most_bounces in [3, 4, 5, 6, 8, 10, 20] {
+        let title = format!("every photon is scattered, up to {most_bounces} times");
+        all.push(no_roulette(title, 1.0, most_bounces));
     }
     // Whoever misreads one step may take t and b as they are written.
     let literal = all.iter().filter(|hypothesis| {
         hypothesis.variation.reading.tangent_basis == TangentBasis::Normalised
-            && hypothesis.id != "nan-frame"
+            && !["nan-frame", "no-absolute-value"].contains(&hypothesis.id)
     });
     let literal: Vec<_> = literal.map(to_the_letter).collect();
     all.extend(literal);

@@ -1,14 +1,16 @@
 //! The judgement of a photon list.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use super::bounces::bounce_findings;
 use super::direct::{is_ruled_out, shows_direct};
 use super::facts::{enough, plain_findings, remarks};
-use super::hypotheses::{Hypothesis, fair_readings, misreadings};
-use super::naming::{Explanation, Known, can_show, name};
+use super::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
+use super::naming::{Explanation, Known, bounces_show, explain};
 use super::number::{SLIPS, cannot_be, contradiction, impossible, slip_finding};
 use super::observation::Observation;
+use super::pairs::pairs;
 use super::picture::expectations::PictureExpectations;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
@@ -35,6 +37,8 @@ pub struct Judgement {
     pub findings: Vec<Finding>,
     /// The misreading, if a known one explains them.
     pub explanation: Option<Explanation>,
+    /// Two misreadings that explain them together, if none does alone.
+    pub pair: Option<Explanation>,
     /// The fair reading that fits best.
     pub reading: Hypothesis,
     /// That reading's signature.
@@ -52,6 +56,7 @@ pub struct Expectations {
     pub signatures: Signatures,
     fair: Vec<Hypothesis>,
     pub(super) misreadings: Vec<Hypothesis>,
+    pairs: Vec<Hypothesis>,
     /// What pictures are held against: most classes hand in none.
     pictures: OnceLock<PictureExpectations>,
 }
@@ -59,8 +64,14 @@ pub struct Expectations {
 impl Expectations {
     /// For photons that may bounce as often as `signatures` says.
     pub fn new(places: Places, signatures: Signatures) -> Self {
-        let (fair, misreadings) = (fair_readings(), misreadings());
-        Self { places, signatures, fair, misreadings, pictures: OnceLock::new() }
+        Self {
+            places,
+            signatures,
+            fair: fair_readings(),
+            misreadings: misreadings(),
+            pairs: pairs(),
+            pictures: OnceLock::new(),
+        }
     }
 
     /// What pictures are held against.
@@ -93,10 +104,9 @@ pub fn judge(
 ) -> Judgement {
     let places = &expectations.places;
     let known = Known {
-        hypotheses: &expectations.misreadings,
-        signatures: &expectations.signatures.misreadings,
-        reference: &expectations.signatures.fair[0],
-        max_bounces: expectations.signatures.max_bounces,
+        misreadings: &expectations.misreadings,
+        pairs: &expectations.pairs,
+        signatures: &expectations.signatures,
     };
     let mut findings = plain_findings(observation, places);
     let mut trial = best_trial(observation, emitted, expectations);
@@ -104,9 +114,12 @@ pub fn judge(
     let of_bounces = bounce_findings(observation, emitted, signature, expectations);
     let is_off =
         trial.p_value < SIGNIFICANCE || findings.iter().chain(&of_bounces).any(Finding::is_fault);
-    let mut explanation = is_off.then(|| name(observation, emitted, places, known)).flatten();
+    let (mut explanation, mut pair) =
+        alone_or_pair(is_off.then(|| explain(observation, emitted, places, known)).flatten());
     let by_intensity = emitted.filter(|_| !emitted_by_user);
-    if let (Some(number), None, true) = (by_intensity, &explanation, trial.p_value < SIGNIFICANCE) {
+    let is_explained = explanation.is_some() || pair.is_some();
+    if let (Some(number), false, true) = (by_intensity, is_explained, trial.p_value < SIGNIFICANCE)
+    {
         let slips = SLIPS.map(|slip| (slip, slip.emitted(number)));
         let trials = slips
             .map(|(slip, emitted)| (slip, best_trial(observation, Some(emitted), expectations)));
@@ -124,12 +137,12 @@ pub fn judge(
             trial = by_shape;
         } else {
             let named = slips.into_iter().find_map(|(slip, emitted)| {
-                Some((slip, name(observation, Some(emitted), places, known)?))
+                Some((slip, explain(observation, Some(emitted), places, known)?))
             });
             if let Some((slip, misreading)) = named {
                 findings.push(slip_finding(slip, number, trial.p_value));
                 trial = best_trial(observation, Some(slip.emitted(number)), expectations);
-                explanation = Some(misreading);
+                (explanation, pair) = alone_or_pair(Some(misreading));
             }
         }
     }
@@ -145,14 +158,37 @@ pub fn judge(
     let signature = expectations.signatures.fair[trial.reading].clone();
     findings.extend(trial.tests.iter().map(|test| {
         let expected = format!("{} ({})", expected_by(test.check), reading.title);
-        let unexplained = if shows_plainly { ECHO } else { UNEXPLAINED };
+        let unexplained = match &pair {
+            Some(pair) => two_at_once(&pair.hypothesis),
+            None if shows_plainly => ECHO.into(),
+            None => UNEXPLAINED.into(),
+        };
         test.finding(trial.tests.len(), expected, explanation.as_ref(), unexplained)
     }));
     findings.push(enough(observation, emitted, trial.emitted));
     // What is wrong elsewhere shows in the bounces too, and is no matter of how they are counted.
     findings.extend(of_bounces.into_iter().filter(|finding| finding.is_fault() || !is_off));
     findings.extend(of_columns);
-    Judgement { findings, explanation, reading, signature, emitted: trial.emitted }
+    Judgement { findings, explanation, pair, reading, signature, emitted: trial.emitted }
+}
+
+/// `explanation`, where it is one misreading, and where it is two at once.
+pub(super) fn alone_or_pair(
+    explanation: Option<Explanation>,
+) -> (Option<Explanation>, Option<Explanation>) {
+    match explanation {
+        Some(pair) if pair.is_pair() => (None, Some(pair)),
+        alone => (alone, None),
+    }
+}
+
+/// What is to be done where `pair` explains what is seen, and no misreading alone does.
+pub(super) fn two_at_once(pair: &Hypothesis) -> Cow<'static, str> {
+    format!(
+        "No known misreading explains it alone, but two together do: {}. Look at both.",
+        pair.title
+    )
+    .into()
 }
 
 /// The fair reading under which `observation` is least strange. Where it is strange under all of them, what
@@ -252,24 +288,32 @@ fn attempt(
         },
     });
 
-    let mut farthest: f64 = 0.0;
-    let hypotheses = expectations.misreadings.iter();
-    for (hypothesis, other) in hypotheses.zip(&expectations.signatures.misreadings) {
-        if !can_show(hypothesis, expectations.signatures.max_bounces) || !has_facets {
-            continue;
-        }
-        let (_, other) = without_last(&law_of(other), &other.classes);
-        let other = grouped(&other, &of_classes, joined_counts.len());
-        farthest = farthest.max(towards(&joined_counts, &joined_law, &other, emitted));
-    }
-    // As many tests as there are misreadings, of one side each.
-    let p_value = corrected(0.5 * normal_tails(farthest), expectations.misreadings.len());
+    let on_the_way = |is_wanted: fn(&Hypothesis) -> bool| {
+        let hypotheses = expectations.misreadings.iter().zip(&expectations.signatures.misreadings);
+        let deviations: Vec<f64> = hypotheses
+            .filter(|(hypothesis, _)| has_cells && is_wanted(hypothesis))
+            .map(|(_, other)| {
+                let other = grouped(&other.cells, &groups, count);
+                towards(&counts_of_groups, &law_of_groups, &other, emitted)
+            })
+            .collect();
+        let farthest = deviations.iter().copied().fold(0.0, f64::max);
+        // As many tests as there are misreadings, of one side each.
+        (farthest, corrected(0.5 * normal_tails(farthest), deviations.len()))
+    };
+    let (farthest, p_value) = on_the_way(|hypothesis| hypothesis.id != BOUNCE_OFF_BY_ONE);
     tests.push(Test {
         check: "known misreadings",
         p_value,
         // Whose way it is says little: the one that explains all is named for the whole.
         found: format!("{farthest:.1} standard deviations on the way to one of them"),
     });
+    if bounces_show(expectations.signatures.max_bounces) {
+        // It shows so little that it needs a test of its own.
+        let (farthest, p_value) = on_the_way(|hypothesis| hypothesis.id == BOUNCE_OFF_BY_ONE);
+        let found = format!("{farthest:.1} standard deviations on the way to one bounce fewer");
+        tests.push(Test { check: "number of bounces", p_value, found });
+    }
 
     let smallest = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
     Trial {
@@ -278,10 +322,6 @@ fn attempt(
         tests,
         emitted: emitted.unwrap_or(of_facets.emitted),
     }
-}
-
-fn law_of(signature: &Signature) -> Law {
-    signature.law_of_classes(LEEWAY)
 }
 
 fn without_last(law: &Law, counts: &[f64]) -> (Law, Vec<f64>) {
@@ -353,6 +393,7 @@ fn expected_by(check: &str) -> &'static str {
         "number" => "as many photons as the scene stores of those sent out",
         "facets" => "on every facet as many photons as the scene leaves there",
         "density" => "the scene's density over every facet",
+        "number of bounces" => "photons of as many bounces as are allowed",
         _ => "no tendency towards a known misreading",
     }
 }

@@ -31,6 +31,7 @@ pub mod naming;
 pub mod number;
 pub mod observation;
 pub mod page;
+pub mod pairs;
 pub mod picture;
 pub mod places;
 pub mod policy;

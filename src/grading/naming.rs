@@ -1,15 +1,21 @@
 //! Which misreading explains what a submission shows?
 
-use super::hypotheses::{Hypothesis, no_offset};
+use super::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, no_offset};
 use super::observation::Observation;
+use super::pairs::PAIR;
 use super::places::Places;
-use super::signature::{Signature, classes};
-use super::statistics::{Fit, fit, towards};
+use super::signature::{Signature, Signatures, classes};
+use super::statistics::{Fit, Matrix, fit, grouped, towards};
 use super::variation::{FACETS, survival_of_facets};
+use crate::rendering::reading::TangentBasis;
 
 /// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
 /// misreading is not all of it.
 const LEEWAY: f64 = 0.012;
+/// The same for cells, of which a larger part lies along an edge.
+const LEEWAY_OF_CELLS: f64 = 0.03;
+/// Cells are joined until so many photons are expected in each.
+const LEAST_EXPECTED: f64 = 25.0;
 /// A misreading that would show so little as what is seen less often than this explains nothing.
 const LEAST_LIKELY: f64 = 1e-4;
 /// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
@@ -29,10 +35,13 @@ const MOST_FIRST_HITS: f64 = 0.5;
 /// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
 const LEEWAY_OF_LOSS: f64 = 0.12;
 
-/// A misreading that explains a submission.
+/// The logarithm of how much rarer two misreadings at once are than one of them.
+const RARER: f64 = -3.0;
+
+/// A misreading that explains a submission, or two at once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// The misreading.
+    /// The misreading, or one of [`super::pairs`].
     pub hypothesis: Hypothesis,
     /// How well it fits.
     pub fit: Fit,
@@ -40,60 +49,78 @@ pub struct Explanation {
     pub confidence: f64,
 }
 
+impl Explanation {
+    /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with all others'.
+    pub(super) fn new(hypothesis: &Hypothesis, mut fit: Fit) -> Self {
+        if hypothesis.id == PAIR {
+            fit.log_likelihood += RARER;
+        }
+        Self { hypothesis: hypothesis.clone(), fit, confidence: 0.0 }
+    }
+
+    /// Whether it is two misreadings at once, which have no name of their own.
+    pub fn is_pair(&self) -> bool {
+        self.hypothesis.id == PAIR
+    }
+
+    fn is_same_misreading(&self, other: &Self) -> bool {
+        self.hypothesis.id == other.hypothesis.id && !self.is_pair()
+    }
+}
+
 /// What is known of the misreadings.
 #[derive(Clone, Copy, Debug)]
 pub struct Known<'a> {
     /// The misreadings.
-    pub hypotheses: &'a [Hypothesis],
-    /// Their signatures.
-    pub signatures: &'a [Signature],
-    /// The reference's signature.
-    pub reference: &'a Signature,
-    /// How often photons may bounce.
-    pub max_bounces: i32,
+    pub misreadings: &'a [Hypothesis],
+    /// Two of them at once.
+    pub pairs: &'a [Hypothesis],
+    /// The signatures of all.
+    pub signatures: &'a Signatures,
 }
 
-/// Whether `hypothesis` stores other photons than the reference at all, where photons may bounce
-/// `max_bounces` times.
-pub fn can_show(hypothesis: &Hypothesis, max_bounces: i32) -> bool {
-    hypothesis.id != "bounce-off-by-one" || max_bounces <= SMALL_LIMIT
+/// Whether a bounce fewer than `max_bounces`, which are allowed, can show at all.
+pub fn bounces_show(max_bounces: i32) -> bool {
+    max_bounces <= SMALL_LIMIT
 }
 
-/// The misreading that explains `observation`, if one does and no other does as well.
-pub fn name(
+/// The misreading that explains `observation`, or two at once, if no other does as well.
+pub fn explain(
     observation: &Observation,
     emitted: Option<f64>,
     places: &Places,
     known: Known,
 ) -> Option<Explanation> {
-    let counts = classes(&observation.counts, places);
+    let max_bounces = known.signatures.max_bounces;
     let repeated = observation.repeated / observation.counts.on_surfaces().max(1.0);
     let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
     let straight = observation.to_light.and_then(|to_light| to_light.part_straight());
     let is_short = observation.bounces.is_some_and(|[first, last]| {
-        i32::from(last - first) + 1 < known.max_bounces && known.max_bounces <= SMALL_LIMIT
+        i32::from(last - first) + 1 < max_bounces && max_bounces <= SMALL_LIMIT
     });
-    let is_possible = |hypothesis: &Hypothesis| match hypothesis.id {
-        "nan-frame" => of_nan > 0.2,
-        "transposed-frame" | "flipped-normal" => of_nan == 0.0,
-        "bounce-off-by-one" => of_nan == 0.0 && repeated < MANY_REPEATED,
-        "direct-stored" => {
-            of_nan == 0.0 && repeated < MANY_REPEATED && straight.is_none_or(|part| part > 0.5)
+    let is_possible = |Hypothesis { id, variation, .. }: &Hypothesis| {
+        if *id == "nan-frame" {
+            return of_nan > 0.2;
         }
-        _ => {
-            of_nan == 0.0
-                && repeated < MANY_REPEATED
-                && straight.is_none_or(|part| part < 0.01)
-                && !is_short
-        }
+        let is_below =
+            variation.flipped_normal || variation.reading.tangent_basis == TangentBasis::Transposed;
+        let is_straight = match straight {
+            Some(part) if variation.direct_stored => part > 0.5,
+            Some(part) => is_below || variation.fewer_bounces > 0 || part < 0.01,
+            None => true,
+        };
+        let is_long =
+            !is_short || is_below || variation.direct_stored || variation.fewer_bounces > 0;
+        of_nan == 0.0 && (is_below || repeated < MANY_REPEATED) && is_straight && is_long
     };
-    let mut candidates: Vec<Explanation> = Vec::new();
-    for (hypothesis, signature) in known.hypotheses.iter().zip(known.signatures) {
-        if is_possible(hypothesis) && can_show(hypothesis, known.max_bounces) {
-            let fit = fit(&counts, &signature.law_of_classes(LEEWAY), emitted);
-            candidates.push(Explanation { hypothesis: hypothesis.clone(), fit, confidence: 0.0 });
-        }
-    }
+    let comparison = Comparison::new(observation, emitted, places, known.signatures);
+    let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
+    let candidates: Vec<Explanation> = (known.misreadings.iter().chain(known.pairs))
+        .zip(signatures)
+        .filter(|(hypothesis, _)| is_possible(hypothesis))
+        .filter(|(hypothesis, _)| hypothesis.id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces))
+        .map(|(hypothesis, signature)| Explanation::new(hypothesis, comparison.fit(signature)))
+        .collect();
     let others = candidates.iter().map(|candidate| candidate.fit.p_value).fold(0.0, f64::max);
     if others < LEAST_LIKELY && repeated > MANY_REPEATED && of_nan == 0.0 {
         let fit = explain_by_self_hits(observation, emitted, places, known)?;
@@ -101,6 +128,48 @@ pub fn name(
         return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
     }
     most_likely(candidates)
+}
+
+/// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.
+struct Comparison<'a> {
+    emitted: Option<f64>,
+    of_classes: Vec<f64>,
+    of_cells: Vec<f64>,
+    groups: (Vec<usize>, usize),
+    correlation: &'a Matrix,
+}
+
+impl<'a> Comparison<'a> {
+    fn new(
+        observation: &Observation,
+        emitted: Option<f64>,
+        places: &Places,
+        signatures: &'a Signatures,
+    ) -> Self {
+        let of_classes = classes(&observation.counts, places);
+        let reference = &signatures.fair[0];
+        // By the photons there are: a misreading may have stored far fewer than are expected.
+        let size = of_classes.iter().sum::<f64>() / reference.classes.iter().sum::<f64>();
+        let groups = places.joined_cells(&reference.cells, size, LEAST_EXPECTED);
+        let count = groups.iter().max().map_or(0, |last| last + 1);
+        Self {
+            emitted,
+            of_classes,
+            of_cells: grouped(&observation.counts.cells, &groups, count),
+            groups: (groups, count),
+            correlation: &signatures.correlation,
+        }
+    }
+
+    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smaller of both p-values.
+    fn fit(&self, signature: &Signature) -> Fit {
+        let by_class = fit(&self.of_classes, &signature.law_of_classes(LEEWAY), self.emitted);
+        let (groups, count) = &self.groups;
+        let law = signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count);
+        let by_cell = fit(&self.of_cells, &law, self.emitted);
+        let p_value = by_class.p_value.min(by_cell.p_value);
+        Fit { p_value, log_likelihood: by_cell.log_likelihood, ..by_class }
+    }
 }
 
 /// Whether self-hits explain places at which several photons lie. How many there are depends on rounding, from
@@ -114,9 +183,9 @@ fn explain_by_self_hits(
     known: Known,
 ) -> Option<Fit> {
     let direct_stored =
-        known.hypotheses.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
-    let with_first_hits = &known.signatures[direct_stored].classes;
-    let law = known.reference.law_of_classes(LEEWAY);
+        known.misreadings.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
+    let with_first_hits = &known.signatures.misreadings[direct_stored].classes;
+    let law = known.signatures.fair[0].law_of_classes(LEEWAY);
     let distinct = classes(&observation.distinct, places);
     let of_distinct = fit(&distinct, &law, emitted);
     let shows_first_hits = towards(&distinct, &law, with_first_hits, emitted) > FIRST_HITS_SHOW;
@@ -148,7 +217,7 @@ fn loses_what_self_hits_lose(
     with_first_hits: &[f64],
     known: Known,
 ) -> bool {
-    let reference = known.reference;
+    let reference = &known.signatures.fair[0];
     let first_hits =
         |facet: usize| emitted * (with_first_hits[facet] - reference.classes[facet]).max(0.0);
     let scattered = |facet: usize| emitted * reference.classes[facet];
@@ -190,11 +259,11 @@ pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanatio
         return None;
     }
     // Ways to the same misreading do not compete with each other.
-    let mut ids: Vec<&str> = vec![best.hypothesis.id];
+    let mut counted = vec![&best];
     let mut sum = 1.0;
-    for other in &candidates {
-        if !ids.contains(&other.hypothesis.id) {
-            ids.push(other.hypothesis.id);
+    for other in &candidates[1..] {
+        if !counted.iter().any(|known| known.is_same_misreading(other)) {
+            counted.push(other);
             sum += (other.fit.log_likelihood - best.fit.log_likelihood).exp();
         }
     }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::hypotheses::{Hypothesis, fair_readings, misreadings};
 use super::observation::{BOUNCES, Counts};
+use super::pairs::pairs;
 use super::places::Places;
 use super::statistics::{Law, Matrix};
 use super::variation::Simulation;
@@ -47,6 +48,8 @@ pub struct Signatures {
     pub fair: Vec<Signature>,
     /// For [`misreadings`], in their order.
     pub misreadings: Vec<Signature>,
+    /// For [`pairs`], in their order.
+    pub pairs: Vec<Signature>,
     /// How the numbers of photons in two cells go together under the reference: their correlation.
     pub correlation: Matrix,
 }
@@ -103,7 +106,8 @@ impl Signatures {
             measure(hypothesis, places, emitted, max_bounces).0
         };
         let misreadings = misreadings().iter().map(of_misreading).collect();
-        Self { max_bounces, fair, misreadings, correlation }
+        let pairs = pairs().iter().map(of_misreading).collect();
+        Self { max_bounces, fair, misreadings, pairs, correlation }
     }
 }
 

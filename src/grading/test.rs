@@ -1,5 +1,7 @@
 //! One number's test, of a list or a picture, and what is said of it.
 
+use std::borrow::Cow;
+
 use super::judge_list::SIGNIFICANCE;
 use super::naming::Explanation;
 use super::statistics::corrected;
@@ -21,15 +23,15 @@ impl Test {
         tests: usize,
         expected: String,
         explanation: Option<&Explanation>,
-        unexplained: &'static str,
+        unexplained: Cow<'static, str>,
     ) -> Finding {
         let p_value = corrected(self.p_value, tests);
         let passed = p_value >= SIGNIFICANCE;
         let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
         let advice = if passed {
-            ""
+            "".into()
         } else {
-            misreading.map_or(unexplained, |misreading| misreading.advice)
+            misreading.map_or(unexplained, |misreading| misreading.advice.into())
         };
         Finding {
             check: self.check,
@@ -39,7 +41,7 @@ impl Test {
             p_value: Some(p_value),
             passed,
             weight: Weight::Fault,
-            advice: advice.into(),
+            advice,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One step of the reference done in another way, and what is stored then: by the same tracer, which is
 //! given another reading, other materials, other normals, or other random numbers.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
 
 use glam::Vec3;
@@ -20,11 +20,13 @@ use crate::scene::mesh_object::MeshObject;
 use crate::scene::ray::Ray;
 use crate::scene::triangle::Triangle;
 
+/// How far above the wall a photon starts that leaves along its normal, in world units.
+const ABOVE: f32 = 1e-5;
 /// How many facets the assignment's scene has.
 pub const FACETS: usize = 12;
 
 /// What decides whether a photon is scattered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Roulette {
     /// The largest channel of the diffuse response: the handout's.
     #[default]
@@ -33,8 +35,12 @@ pub enum Roulette {
     Mean,
     /// Its red channel.
     Red,
-    /// Nothing: every photon is scattered.
-    Always,
+    /// The smallest of its channels: in this scene, blue everywhere.
+    Smallest,
+    /// Its luminance, by the weights of ITU-R BT.709.
+    Luminance,
+    /// This chance, on every material; with 1, every photon is scattered.
+    Constant(f32),
 }
 
 /// How a direction over the surface is sampled.
@@ -62,6 +68,9 @@ pub struct Variation {
     pub cube_directions: bool,
     /// Whether photons that come directly from the light are stored.
     pub direct_stored: bool,
+    /// Whether photons leave along the normal where t and b are not numbers, as where a safe normalisation leaves
+    /// them at zero.
+    pub zero_frame: bool,
     /// Whether normals point to the other side.
     pub flipped_normal: bool,
     /// How many bounces fewer than allowed.
@@ -80,6 +89,7 @@ impl Default for Variation {
             hemisphere: Hemisphere::Cosine,
             cube_directions: false,
             direct_stored: false,
+            zero_frame: false,
             flipped_normal: false,
             fewer_bounces: 0,
             most_bounces: i32::MAX,
@@ -215,21 +225,31 @@ impl Simulation {
             photon_map.clear();
             path.clear();
             path.push(PathVertex::Light);
-            let mut draws = 0;
+            let draws = Cell::new(0);
             let mut varied_rand = || {
-                draws += 1;
+                draws.set(draws.get() + 1);
                 // At every hit the roulette's number is drawn first, then u1, then u2.
-                if draws % 3 == 2 { self.vary_u1(rand()) } else { rand() }
+                if draws.get() % 3 == 2 { self.vary_u1(rand()) } else { rand() }
             };
-            self.renderer.trace_photon(
-                &mut photon_map,
-                &photon_ray,
-                intensity,
-                &mut path,
-                self.renderer.max_photon_bounces,
-                &mut varied_rand,
-            );
-            let has_scattered_last = draws % 3 == 0 && draws > 0;
+            let mut ray = photon_ray;
+            loop {
+                let before = path.len();
+                let bounces = (before - 1) as i32;
+                self.renderer.trace_photon(
+                    &mut photon_map,
+                    &ray,
+                    intensity,
+                    &mut path,
+                    self.renderer.max_photon_bounces - bounces,
+                    &mut varied_rand,
+                );
+                let is_zero = self.variation.zero_frame && path.len() > before;
+                match path.last().and_then(|vertex| self.along_parallel(vertex)) {
+                    Some(along_normal) if is_zero && draws.get() % 3 == 0 => ray = along_normal,
+                    _ => break,
+                }
+            }
+            let has_scattered_last = draws.get() % 3 == 0 && draws.get() > 0;
             let mut to_light = -photon_ray.ray_direction();
             let mut bounce = 0;
             for (place, vertex) in path.iter().enumerate().skip(1) {
@@ -260,8 +280,9 @@ impl Simulation {
             }
             // Where the direction is not a number, the framework's tests find a hit that is not one.
             let mut is_lost = self.variation.makes_nan()
+                && !self.variation.zero_frame
                 && has_scattered_last
-                && records.last().is_none_or(|_| last_is_parallel(&path, &self.renderer));
+                && path.last().is_some_and(|vertex| self.along_parallel(vertex).is_some());
             while is_lost {
                 let position = Vec3::NAN;
                 let photon = photon as u32;
@@ -283,15 +304,13 @@ impl Simulation {
             Hemisphere::NoSquareRoot => u1 * u1 / (u1 * u1 + 1.0 - u1),
         }
     }
-}
 
-/// Whether the path's last surface has the normal along which the frame has no length.
-fn last_is_parallel(path: &[PathVertex], renderer: &PhotonMappingRenderer) -> bool {
-    match path.last() {
-        Some(PathVertex::Surface(state)) => {
-            state.compute_normal(&renderer.stored_scene).x.abs() > 0.999
-        }
-        _ => false,
+    /// The ray that leaves `vertex` along its normal, if that is one along which the frame has no length.
+    fn along_parallel(&self, vertex: &PathVertex) -> Option<Ray> {
+        let PathVertex::Surface(state) = vertex else { return None };
+        let normal = state.compute_normal(&self.renderer.stored_scene);
+        let start = state.intersection_point() + ABOVE * normal;
+        (normal.x.abs() > 0.999).then(|| Ray::new(start, normal))
     }
 }
 
@@ -300,6 +319,8 @@ fn survival(diffuse: Vec3, roulette: Roulette) -> f32 {
         Roulette::Largest => diffuse.max_element(),
         Roulette::Mean => diffuse.element_sum() / 3.0,
         Roulette::Red => diffuse.x,
-        Roulette::Always => 1.0,
+        Roulette::Smallest => diffuse.min_element(),
+        Roulette::Luminance => diffuse.dot(Vec3::new(0.2126, 0.7152, 0.0722)),
+        Roulette::Constant(chance) => chance,
     }
 }

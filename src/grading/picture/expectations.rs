@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::signature::{PictureSignatures, known_misreadings};
+use super::signature::{PictureSignatures, known_misreadings, known_pairs};
 use super::view::View;
 use crate::grading::hypotheses::{Hypothesis, fair_readings};
 use crate::grading::places::Places;
@@ -24,6 +24,7 @@ pub struct PictureExpectations {
     pub signatures: PictureSignatures,
     pub(super) fair: Vec<Hypothesis>,
     pub(super) misreadings: Vec<Hypothesis>,
+    pub(super) pairs: Vec<Hypothesis>,
     /// By facet in sight: whether it is at right angles to no axis.
     pub(super) is_askew: Vec<bool>,
 }
@@ -47,6 +48,7 @@ impl PictureExpectations {
             signatures,
             fair: fair_readings(),
             misreadings: known_misreadings(places),
+            pairs: known_pairs(places),
         }
     }
 

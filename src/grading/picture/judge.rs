@@ -5,9 +5,9 @@ use super::expectations::PictureExpectations;
 use super::expected::{Expected, means, total};
 use super::view::View;
 use super::words::{self, LEAST_EMITTED};
-use crate::grading::hypotheses::Hypothesis;
-use crate::grading::judge_list::SIGNIFICANCE;
-use crate::grading::naming::{Explanation, most_likely};
+use crate::grading::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
+use crate::grading::judge_list::{SIGNIFICANCE, alone_or_pair, two_at_once};
+use crate::grading::naming::{Explanation, bounces_show, most_likely};
 use crate::grading::statistics::{
     Fit, Law, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
 };
@@ -54,6 +54,8 @@ pub struct PictureJudgement {
     pub findings: Vec<Finding>,
     /// The misreading, if a known one explains them.
     pub explanation: Option<Explanation>,
+    /// Two misreadings that explain them together, if none does alone.
+    pub pair: Option<Explanation>,
     /// How many photons were sent out: as known, or as it fits best; nothing where nothing fits.
     pub emitted: Option<f64>,
     /// The smallest p-value, corrected for the number of tests, where there were any.
@@ -108,6 +110,7 @@ pub fn judge_dots(
         has_dots,
         findings: vec![finding],
         explanation,
+        pair: None,
         emitted,
         p_value: None,
     };
@@ -141,14 +144,18 @@ fn judge_pattern(case: Case) -> PictureJudgement {
     if let Some(off) = off_surface.filter(|off| is_sparse || off.p_value > trial.p_value) {
         trial = off;
     }
-    let explanation = (trial.p_value < SIGNIFICANCE).then(|| case.name(&trial)).flatten();
+    let explained = (trial.p_value < SIGNIFICANCE).then(|| case.explain(&trial)).flatten();
+    let (explanation, pair) = alone_or_pair(explained);
     let reading = &case.expectations.fair[trial.reading];
     let mut findings: Vec<Finding> = trial
         .tests
         .iter()
         .map(|test| {
             let expected = format!("{} ({})", words::expected_by(test.check), reading.title);
-            test.finding(trial.tests.len(), expected, explanation.as_ref(), words::UNEXPLAINED)
+            let unexplained = pair
+                .as_ref()
+                .map_or(words::UNEXPLAINED.into(), |pair| two_at_once(&pair.hypothesis));
+            test.finding(trial.tests.len(), expected, explanation.as_ref(), unexplained)
         })
         .collect();
     if case.emitted.is_none() {
@@ -170,6 +177,7 @@ fn judge_pattern(case: Case) -> PictureJudgement {
         has_dots: true,
         findings,
         explanation,
+        pair,
         emitted: Some(trial.emitted),
         p_value: Some(trial.p_value),
     }
@@ -371,12 +379,12 @@ impl Case<'_> {
         size
     }
 
-    /// The misreading that explains the picture, if one does and no other does as well.
-    fn name(&self, trial: &Trial) -> Option<Explanation> {
+    /// The misreading that explains the picture, or two at once, if no other does as well.
+    fn explain(&self, trial: &Trial) -> Option<Explanation> {
         let (groups, count) = (&trial.groups.0, trial.groups.1);
         let counts = grouped(self.counts, groups, count);
         let at_rest = vec![1.0; self.view.facets.len()];
-        let explain = |hypothesis: &Hypothesis, signature: &PictureSignature| {
+        let hold_against = |hypothesis: &Hypothesis, signature: &PictureSignature| {
             let size = self.emitted.unwrap_or_else(|| self.fit_size(signature, &at_rest));
             let expected = Expected::new(self.view, signature, size, &at_rest);
             let mut law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
@@ -391,17 +399,17 @@ impl Case<'_> {
             fit.degrees -= usize::from(self.emitted.is_none());
             fit.p_value = chi_squared_tail(fit.distance, fit.degrees);
             fit.emitted = size;
-            Explanation { hypothesis: hypothesis.clone(), fit, confidence: 0.0 }
+            Explanation::new(hypothesis, fit)
         };
-        let known = self.expectations.misreadings.iter();
-        let signatures = &self.expectations.signatures.misreadings;
-        // A number of bounces changes too little of a picture unless it is small.
-        let can_be_seen =
-            |id| id != "bounce-off-by-one" || self.expectations.signatures.max_bounces <= 12;
+        let signatures = &self.expectations.signatures;
+        let known = self.expectations.misreadings.iter().chain(&self.expectations.pairs);
+        let signatures = signatures.misreadings.iter().chain(&signatures.pairs);
+        let max_bounces = self.expectations.signatures.max_bounces;
+        let can_be_seen = |id| id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces);
         let candidates = known
             .zip(signatures)
             .filter(|(hypothesis, _)| can_be_seen(hypothesis.id))
-            .map(|(hypothesis, signature)| explain(hypothesis, signature));
+            .map(|(hypothesis, signature)| hold_against(hypothesis, signature));
         most_likely(candidates.collect())
             .filter(|it| it.hypothesis.id == "no-offset" || it.fit.p_value >= LEAST_LIKELY)
     }

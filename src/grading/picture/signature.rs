@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::view::View;
 use crate::grading::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
+use crate::grading::pairs::{PAIR, can_be_of_two, pairs};
 use crate::grading::places::Places;
 use crate::grading::signature::Effort;
 use crate::grading::statistics::Matrix;
-use crate::grading::variation::{FACETS, Simulation};
+use crate::grading::variation::{FACETS, Simulation, Variation};
 use crate::photon_list::record::PhotonRecord;
 
 /// How many photons a thread traces at once.
@@ -44,6 +45,8 @@ pub struct PictureSignatures {
     pub fair: Vec<PictureSignature>,
     /// For [`known_misreadings`], in their order.
     pub misreadings: Vec<PictureSignature>,
+    /// For [`known_pairs`], in their order.
+    pub pairs: Vec<PictureSignature>,
 }
 
 impl PictureSignatures {
@@ -62,11 +65,16 @@ impl PictureSignatures {
             measure(hypothesis, view, emitted, max_bounces)
         });
         let fair = fair.collect();
-        let misreadings = known_misreadings(places);
-        let misreadings = misreadings
-            .iter()
-            .map(|hypothesis| measure(hypothesis, view, effort.misreading, max_bounces));
-        Self { max_bounces, fair, misreadings: misreadings.collect() }
+        let measure_all = |hypotheses: Vec<Hypothesis>, emitted: u64| {
+            let signature = |hypothesis| measure(hypothesis, view, emitted, max_bounces);
+            hypotheses.iter().map(signature).collect()
+        };
+        Self {
+            max_bounces,
+            fair,
+            misreadings: measure_all(known_misreadings(places), effort.misreading),
+            pairs: measure_all(known_pairs(places), effort.slow_misreading),
+        }
     }
 }
 
@@ -76,16 +84,40 @@ pub fn known_misreadings(places: &Places) -> Vec<Hypothesis> {
     let mut all = misreadings();
     for straight in SELF_HITS.0 {
         for askew in SELF_HITS.1 {
-            let mut self_hits = [straight; FACETS];
-            for (facet, part) in places.facets.iter().zip(&mut self_hits) {
-                if facet.normal.abs().max_element() < 0.99 {
-                    *part = askew;
-                }
-            }
-            all.push(no_offset(self_hits));
+            all.push(no_offset(self_hits(straight, askew, places)));
         }
     }
     all
+}
+
+/// All pairs of misreadings that a picture can show: those of lists, and photons without an offset together with
+/// another one.
+pub fn known_pairs(places: &Places) -> Vec<Hypothesis> {
+    let [_, straight, _] = SELF_HITS.0;
+    let [_, askew, _] = SELF_HITS.1;
+    let no_offset = no_offset(self_hits(straight, askew, places));
+    let mut all = pairs();
+    for other in misreadings().iter().filter(|hypothesis| can_be_of_two(hypothesis)) {
+        let self_hits = no_offset.variation.self_hits;
+        all.push(Hypothesis {
+            id: PAIR,
+            title: format!("{}; and {}", no_offset.title, other.title),
+            misreading: None,
+            variation: Variation { self_hits, ..other.variation },
+        });
+    }
+    all
+}
+
+/// The part of self-hits on every facet.
+fn self_hits(straight: f32, askew: f32, places: &Places) -> [f32; FACETS] {
+    let mut self_hits = [straight; FACETS];
+    for (facet, part) in places.facets.iter().zip(&mut self_hits) {
+        if facet.normal.abs().max_element() < 0.99 {
+            *part = askew;
+        }
+    }
+    self_hits
 }
 
 /// Sums over photons, and over pairs of photons of one path.
