@@ -65,7 +65,7 @@ fn what_a_class_hands_in() {
     paths.push(write(at("pair.png"), png));
     write(at("nested/homework/dump.txt"), &list);
     write(at("nested/homework/main.cpp"), "int main() {}\n");
-    write(at("nested/.DS_Store"), &list);
+    write(at("nested/.DS_Store"), list.clone() + "1,2,3\n");
     paths.push(at("nested"));
     write(at("two/a.csv"), &list);
     write(at("two/b.csv"), list.clone() + "1,2,3\n");
@@ -76,6 +76,9 @@ fn what_a_class_hands_in() {
     write(at("usual/photons.csv"), &list);
     write(at("usual/earlier.csv"), "x,y,z\n");
     paths.push(at("usual"));
+    write(at("handout/assignment8.csv"), &list);
+    write(at("handout/tests.csv"), "x,y,z\n");
+    paths.push(at("handout"));
     write(at("pictures/photons.csv"), &list);
     write(at("pictures/1.png"), png);
     write(at("pictures/2.png"), b"\x89PNG\r\n\x1a\nother");
@@ -97,6 +100,11 @@ fn what_a_class_hands_in() {
             Some(("files", "a.csv is judged, and left out: b.csv, which is the same")),
         ),
         ("usual", "correct", Some(("files", "photons.csv is judged, and left out: earlier.csv"))),
+        (
+            "handout",
+            "correct",
+            Some(("files", "assignment8.csv is judged, and left out: tests.csv")),
+        ),
         ("pictures", "correct", Some(("files", "2 pictures in it (1.png, 2.png)"))),
         ("broken", "unreadable", Some(("readable", "line 1: expected the columns x, y and z"))),
         ("empty", "unreadable", Some(("readable", "neither a photon list nor a picture"))),
@@ -120,11 +128,15 @@ fn a_folder_of_students_is_a_class() {
     let at = |path: &str| folder.path().join(path);
     let list = csv();
     write(at("class/alice/out/photons.csv"), &list);
-    write(at("class/bob/mine.csv"), list.clone() + "\n");
+    // As long as the others', in another order.
+    let mut lines: Vec<&str> = list.lines().collect();
+    lines[1..].reverse();
+    write(at("class/bob/mine.csv"), lines.join("\n") + "\n");
     write(at("class/carol/main.cpp"), "int main() {}\n");
     write(at("class/dave/photons.csv"), &list);
     write(at("class/erin/photons.csv.gz"), b"\x1f\x8b\x08\0");
     write(at("class/roster.txt"), "alice\n");
+    write(at("class/.trash/photons.csv"), &list);
     let grades = grades(&[at("class")], &["--emitted", "60000"]);
     let expected = [
         ("alice", "correct", "same files", "the same, byte by byte, as that of"),
@@ -147,6 +159,79 @@ fn a_folder_of_students_is_a_class() {
 }
 
 #[test]
+fn a_student_with_older_files_in_folders_is_no_class() {
+    let folder = folder();
+    let list = "x,y,z\n1,2,3\n";
+    for (name, contents) in [
+        ("dump", list.as_bytes()),
+        ("photons.csv", b"x;why\n1;2\n"),
+        ("1.png", b"\x89PNG\r\n\x1a\n"),
+    ] {
+        let student = folder.path().join(format!("with-{name}"));
+        write(student.join(name), contents);
+        write(student.join("monday/photons.csv"), list);
+        write(student.join("tuesday/photons.csv"), list);
+        assert_eq!(collect(&[student]).len(), 1, "{name}");
+    }
+}
+
+#[test]
+fn pictures_make_a_class_too_and_those_that_are_the_same_are_told() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let png = b"\x89PNG\r\n\x1a\n";
+    for student in ["ann", "ben"] {
+        write(at("class").join(student).join("1.png"), png);
+    }
+    let [ann, ben] = &collect(&[at("class")])[..] else { panic!("two students") };
+    for (one, other) in [(ann, ben), (ben, ann)] {
+        let [twin] = one.twins.as_slice() else { panic!("{:?}", one.twins) };
+        assert!(twin.contains("the picture is the same"), "{twin}");
+        assert!(twin.contains(&other.submission.name), "{twin}");
+    }
+    // A file that is named twice has nothing in common with itself.
+    let twice = collect(&[at("class/ann/1.png"), at("class/ann/1.png")]);
+    assert!(twice.len() == 2 && twice.iter().all(|handed_in| handed_in.twins.is_empty()));
+}
+
+#[test]
+fn packed_files_are_told_by_what_they_are_packed_with() {
+    let folder = folder();
+    let kinds: [(&str, &[u8]); 7] = [
+        ("gzip", b"\x1f\x8b\x08\0"),
+        ("zip", b"PK\x03\x04\x14\0"),
+        ("xz", b"\xfd7zXZ\0\0"),
+        ("7-Zip", b"7z\xbc\xaf\x27\x1c\0"),
+        ("RAR", b"Rar!\x1a\x07"),
+        ("bzip2", b"BZh91AY"),
+        ("Zstandard", b"\x28\xb5\x2f\xfd\x04"),
+    ];
+    for (kind, start) in kinds {
+        let student = folder.path().join(kind);
+        let file = write(student.join("photons.csv"), start);
+        for path in [file, student] {
+            let problem = collect(&[path]).remove(0).problem.expect("it cannot be graded");
+            assert!(problem.contains(&format!("packed ({kind}): unpack it first")), "{problem}");
+        }
+    }
+}
+
+#[test]
+fn a_folder_of_far_too_much_is_no_students() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    write(at("deep").join("more/".repeat(7)).join("photons.csv"), "x,y,z\n");
+    fs::create_dir(at("wide")).unwrap();
+    for number in 0..=10_000 {
+        fs::File::create(at("wide").join(number.to_string())).unwrap();
+    }
+    for name in ["deep", "wide"] {
+        let problem = collect(&[at(name)]).remove(0).problem.expect("it cannot be graded");
+        assert!(problem.contains("more than 10000 files or 6 levels"), "{name}: {problem}");
+    }
+}
+
+#[test]
 fn a_mistyped_path_is_no_students_fault() {
     let folder = folder();
     let (list, missing) =
@@ -157,7 +242,10 @@ fn a_mistyped_path_is_no_students_fault() {
     let grades = json(assert);
     assert_eq!(grades.as_array().unwrap().len(), 1);
     assert_eq!(grades[0]["verdict"], "correct");
-    fails("grade {}", &[&missing], &["lits: no such file"]);
+    // Nothing is graded then, not even nobody.
+    fails("grade --format json {}", &[&missing], &["lits: no such file"]);
+    // There is a page for each of those that were named.
+    fails("grade --format html {} {}", &[&missing, &list], &["--out", "2 submissions"]);
 }
 
 #[cfg(unix)]
@@ -172,16 +260,25 @@ fn no_file_and_no_way_out() {
     std::os::unix::fs::symlink(folder.path(), at("linked/more")).unwrap();
     write(at("loop/photons.csv"), csv());
     std::os::unix::fs::symlink(at("loop"), at("loop/again")).unwrap();
+    std::os::unix::fs::symlink(at("nothing"), at("nowhere")).unwrap();
     fs::create_dir(at("pipe")).unwrap();
     for path in ["fifo", "pipe/photons.csv"] {
         assert!(Command::new("mkfifo").arg(at(path)).status().unwrap().success());
     }
-    let paths =
-        [at("link"), at("linked"), at("loop"), at("fifo"), at("pipe"), PathBuf::from("/dev/zero")];
+    let paths = [
+        at("link"),
+        at("linked"),
+        at("loop"),
+        at("nowhere"),
+        at("fifo"),
+        at("pipe"),
+        PathBuf::from("/dev/zero"),
+    ];
     let reasons = [
         "the link photons.csv leads out of the folder",
         "the link more leads out of the folder",
         "",
+        "it cannot be read",
         "neither a file nor a folder",
         "photons.csv is neither a file nor a folder",
         "neither a file nor a folder",
@@ -218,8 +315,18 @@ fn other_programs_lists() {
             "semicolons between values; no names of columns",
         ),
         ("tabs", with("x\ty\tz\n", |[x, y, z]| format!("{x}\t{y}\t{z}")), "tabs"),
+        (
+            "tabs-and-decimal-commas",
+            with("x\ty\tz\n", |xyz| xyz.map(|it| it.to_string().replace('.', ",")).join("\t")),
+            "tabs",
+        ),
         ("spaces", with("", space), "spaces between values; no names of columns"),
-        ("numpy", with("# x y z\n", space), "spaces"),
+        ("numpy", with("# z y x\n", |[x, y, z]| format!("{z} {y} {x}")), "spaces"),
+        (
+            "quotes",
+            with("\"x\",\"y\",\"z\"\n", |xyz| xyz.map(|it| format!("\"{it}\"")).join(",")),
+            "",
+        ),
         ("no-header", with("", comma), "the three are taken for x, y and z"),
         ("capitals", with("X,Y,Z\n", comma), "'X' for x"),
         ("struct", with("position.x,position.y,position.z\n", comma), "'position.y' for y"),
@@ -277,6 +384,7 @@ fn hostile_files() {
         ("vertices", ply(&format!("element vertex {}\n{many}", 1_u64 << 60)).into(), "truncated"),
         ("lists", ply("element vertex 9\nproperty list uint float x\n").into(), "plain properties"),
         ("header", ply(&"comment\n".repeat(20_000)).into(), "header of under"),
+        ("comments", "# none\n".repeat(1_100_000).into(), "fewer lines of comment"),
         ("blank", format!("x,y,z{}1,2,3", "\n".repeat(1_100_000)).into(), "fewer empty lines"),
         ("nan", repeated("nan,nan,nan\n"), "no position in the list is a finite number"),
         ("infinite", repeated("inf,-inf,1e400\n"), "no position in the list is a finite number"),
@@ -320,6 +428,8 @@ fn reading_stops_at_the_cap() {
     assert_eq!(load_at_most(&path, 101).unwrap().0.records.len(), 101);
     let error = load_at_most(&path, 100).unwrap_err().to_string();
     assert!(error.contains("at most 100 records"), "{error}");
+    let error = load_at_most(folder.path(), 100).unwrap_err().to_string();
+    assert!(error.contains("expected a file, found a folder"), "{error}");
     // What comes after is not even looked at.
     let path =
         write(folder.path().join("list"), "x,y,z\n".to_owned() + &"0,0,0\n".repeat(101) + "?");
@@ -364,6 +474,21 @@ fn names_are_printable_and_unique() {
 }
 
 #[test]
+fn the_number_that_the_course_gives_counts() {
+    let folder = folder();
+    let list = write(folder.path().join("list.csv"), csv());
+    for (emitted, verdict) in [(60_000, "correct"), (80_000, "incorrect")] {
+        let grade = grades(std::slice::from_ref(&list), &["--emitted", &emitted.to_string()]);
+        assert_eq!(
+            (&grade[0]["verdict"], &grade[0]["emitted"]),
+            (&verdict.into(), &emitted.into())
+        );
+    }
+    let grade = &grades(&[list], &[])[0];
+    assert_eq!((&grade["verdict"], &grade["emitted"]), (&"correct".into(), &Value::Null));
+}
+
+#[test]
 fn a_policy_sets_the_scores() {
     let folder = folder();
     let at = |path: &str| folder.path().join(path);
@@ -379,6 +504,12 @@ fn a_policy_sets_the_scores() {
         ("[]", &["policy.json", "sequence"]),
         (r#"{ "no-dots": -1 }"#, &["policy.json", "'no-dots' is -1", "from 0 to 'correct', 4"]),
         (r#"{ "misreadings": { "no-offset": 5 } }"#, &["'no-offset' is 5"]),
+        (r#"{ "misreadings": { "no-offset": -1 } }"#, &["'no-offset' is -1"]),
+        (r#"{ "correct": -1 }"#, &["'correct' is -1"]),
+        (r#"{ "plausible": 5 }"#, &["'plausible' is 5"]),
+        (r#"{ "correct": 1.5 }"#, &["'plausible' is 3, which is not from 0 to 'correct', 1.5"]),
+        (r#"{ "incorrect": 4.5 }"#, &["'incorrect' is 4.5"]),
+        (r#"{ "unreadable": 5 }"#, &["'unreadable' is 5"]),
     ] {
         fs::write(&policy, text).unwrap();
         fails("grade --policy {} {}", &[&policy, &list], parts);
@@ -404,8 +535,10 @@ fn lists_after_comments_and_in_other_byte_orders() {
     write(at("class/comment/any.txt"), "# photons, of mine\n# all of them\n".to_owned() + &csv());
     write(at("class/excel/photons.csv"), "\u{feff}sep=,\r\n".to_owned() + &csv());
     write(at("class/big/photons.ply"), ply);
+    let german = lines(|xyz| xyz.map(|it| it.to_string().replace('.', ",")).join(";"));
+    write(at("class/german/photons.csv"), "\"SEP=;\"\r\nx;y;z\r\n".to_owned() + &german);
     let grades = grades(&[at("class")], &["--emitted", "60000"]);
-    assert_eq!(grades.len(), 3);
+    assert_eq!(grades.len(), 4);
     for grade in grades {
         assert_eq!((&grade["verdict"], &grade["stored"]), (&"correct".into(), &count.into()));
     }

@@ -65,7 +65,8 @@ fn check_results(value: &Value) {
         "leaderboard",
     ];
     keys(value, &top);
-    assert!(value["score"].is_number() && value["execution_time"].is_number());
+    assert!(value["score"].is_number());
+    assert!(value["execution_time"].as_f64().is_some_and(|seconds| seconds >= 0.0));
     assert!(value["output"].is_string() && value["extra_data"].is_object());
     assert!(is_one_of(&value["output_format"], &formats));
     assert!(is_one_of(&value["visibility"], &visibilities));
@@ -117,10 +118,16 @@ fn json_has_the_fields_of_a_grade() {
 fn gradescope_results() {
     let folder = folder();
     let (right, wrong) = (correct(folder.path(), "r.csv"), incorrect(folder.path(), "w.csv"));
+    // A list of this kind is remarked on.
+    let text = fs::read_to_string(&right).unwrap();
+    fs::write(&right, text.replace(',', ";")).unwrap();
     let results =
         json(run_line("grade --format gradescope --emitted 60000 {}", &[&wrong]).success());
     check_results(&results);
     assert_eq!(results["score"], 3.0);
+    // Students see why they have it, but not what the grader printed.
+    assert_eq!(results["visibility"], "visible");
+    assert_eq!(results["stdout_visibility"], "hidden");
     assert!(results["output"].as_str().unwrap().contains("uniform-hemisphere"));
     let failed = |results: &Value| {
         results["tests"].as_array().unwrap().iter().filter(|t| t["status"] == "failed").count()
@@ -142,6 +149,9 @@ fn gradescope_results() {
         serde_json::from_slice(&fs::read(out.join("r.csv.json")).unwrap()).unwrap();
     check_results(&results);
     assert_eq!((&results["score"], failed(&results)), (&4.0.into(), 0));
+    let tests = results["tests"].as_array().unwrap();
+    let remarks = tests.iter().filter(|test| test["extra_data"]["passed"] == false);
+    assert_eq!(remarks.map(|test| &test["name"]).collect::<Vec<_>>(), ["format"]);
     let alone = folder.path().join("results.json");
     let empty = folder.path().join("empty");
     fs::create_dir(&empty).unwrap();
@@ -171,9 +181,60 @@ fn nothing_of_a_submission_gets_into_the_page_as_it_is() {
             assert!(!page.contains(part), "{file} contains {part}");
         }
         assert!(page.contains("Content-Security-Policy"));
+        // What is no picture is not shown as one.
+        assert!(!page.contains("data:image"), "{file}");
     }
     let index = fs::read_to_string(out.join("index.html")).unwrap();
     assert!(index.contains("&lt;img src=x onerror=alert(1)&gt;"));
+}
+
+#[test]
+fn pages_show_no_picture_that_would_fill_them() {
+    let folder = folder();
+    let (long, page) = (folder.path().join("long.png"), folder.path().join("page.html"));
+    image::RgbImage::new(4097, 1).save(&long).unwrap();
+    run_line("grade --format html --out {} {}", &[&page, &long]).success();
+    let page = fs::read_to_string(page).unwrap();
+    assert!(page.contains("is not shown: expected at most 4096 pixels") && !page.contains("<img"));
+}
+
+#[test]
+fn every_submission_has_a_page_of_its_own() {
+    let folder = folder();
+    // Some systems do not tell capitals apart, and the index is a page too.
+    let long = "n".repeat(150);
+    let submissions = ["a/r.csv", "b/R.csv", "index", "Index", "..csv", &long].map(|name| {
+        let path = folder.path().join("class").join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "x,y,z\n").unwrap();
+        path
+    });
+    let out = folder.path().join("pages");
+    let mut paths = vec![out.as_path()];
+    paths.extend(submissions.iter().map(PathBuf::as_path));
+    let line = "grade --format html --out {}".to_owned() + &" {}".repeat(submissions.len());
+    run_line(&line, &paths).success();
+    let expected = [
+        "Index-3.html",
+        "R.csv-2.html",
+        "csv.html",
+        "index-2.html",
+        "index.html",
+        &format!("{}.html", "n".repeat(100)),
+        "r.csv.html",
+    ];
+    assert_eq!(names(&out), expected);
+    assert!(fs::read_to_string(out.join("index.html")).unwrap().contains("6 submissions"));
+}
+
+#[test]
+fn photons_straight_from_the_light_are_not_plausible() {
+    let folder = folder();
+    let of_light = Variation { direct_stored: true, ..Variation::default() };
+    let path = list(folder.path(), "light.csv", of_light);
+    let grade = json(run_line("grade --format json --emitted 60000 {}", &[&path]).success());
+    assert_eq!((&grade["verdict"], &grade["score"]), (&"incorrect".into(), &2.0.into()));
+    assert_eq!(grade["misreading"], "direct-stored");
 }
 
 #[test]
@@ -186,15 +247,29 @@ fn incoming_directions_are_shown_where_they_are_given() {
         let values = line.split(',').zip(&names).filter(|(_, name)| is_kept(name));
         values.map(|(value, _)| value).collect::<Vec<_>>().join(",") + "\n"
     };
+    let direction = |name: &str| name.starts_with("to_light");
     let is_position = |name: &str| ["x", "y", "z"].contains(&name);
     let without: String = text.lines().map(|line| of(line, &is_position)).collect();
     let bare = folder.path().join("bare.csv");
     fs::write(&bare, without).unwrap();
-    for (list, is_shown) in [(&with, true), (&bare, false)] {
+    // As a ray that is never set.
+    let unset = folder.path().join("unset.csv");
+    let unset_line = |line: &str| -> String {
+        let values = line.split(',').zip(&names);
+        let values = values.map(|(value, name)| if direction(name) { "0" } else { value });
+        values.collect::<Vec<_>>().join(",") + "\n"
+    };
+    let (header, rows) = text.split_once('\n').unwrap();
+    fs::write(&unset, format!("{header}\n") + &rows.lines().map(unset_line).collect::<String>())
+        .unwrap();
+    for (list, has_directions, has_bounces) in
+        [(&with, true, true), (&bare, false, false), (&unset, false, true)]
+    {
         let page = folder.path().join("page.html");
         run_line("grade --format html --out {} {}", &[&page, list]).success();
         let page = fs::read_to_string(&page).unwrap();
-        assert_eq!(page.contains("Incoming directions"), is_shown, "{}", list.display());
+        assert_eq!(page.contains("Incoming directions"), has_directions, "{}", list.display());
+        assert_eq!(page.contains("<h3>Bounces</h3>"), has_bounces, "{}", list.display());
     }
 }
 
@@ -287,12 +362,16 @@ fn pages_open_in_a_browser() {
 #[test]
 fn text_of_several() {
     let folder = folder();
-    let right = correct(folder.path(), "r.csv");
+    let (right, wrong) = (correct(folder.path(), "r.csv"), incorrect(folder.path(), "w.csv"));
     let none = folder.path().join("none.csv");
     fs::write(&none, "x;why\n1;2\n").unwrap();
     let text = stdout(run_line("grade {} {}", &[&right, &none]).success());
     assert!(text.contains("r.csv: correct, 4 of 4 points"), "{text}");
     assert!(text.contains("none.csv: unreadable, 0 of 4 points\n"), "{text}");
+    // What all faults of a misreading advise is said once.
+    let text = stdout(run_line("grade --emitted 60000 {}", &[&wrong]).success());
+    assert!(text.matches("FAULT").count() > 1, "{text}");
+    assert_eq!(text.matches("Take r = sqrt(u1)").count(), 1, "{text}");
 }
 
 #[test]
@@ -305,6 +384,10 @@ fn who_has_the_same_files_is_for_the_course_alone() {
     };
     of("ann");
     of("ben");
+    for name in ["ann", "ben"] {
+        let earlier = folder.path().join("class").join(name).join("earlier.csv");
+        fs::write(earlier, "x,y,z\n").unwrap();
+    }
     let (class, out) = (folder.path().join("class"), folder.path().join("out"));
     let told = stdout(run_line("grade {}", &[&class]).success());
     assert!(told.contains("byte by byte"));
@@ -317,6 +400,10 @@ fn who_has_the_same_files_is_for_the_course_alone() {
         let of_others = |test: &&Value| test["output"].as_str().unwrap().contains("byte by byte");
         let twins = tests.iter().find(of_others).expect("they are told");
         assert_eq!(twins["visibility"], "hidden");
+        // What was left out is the student's own.
+        let others = || tests.iter().filter(|test| !of_others(test));
+        assert!(others().all(|test| test["visibility"] == "visible"), "{tests:#?}");
+        assert!(others().any(|test| test["name"] == "files"), "{tests:#?}");
     }
     let pages = folder.path().join("pages");
     run_line("grade --format html --out {} {}", &[&pages, &class]).success();

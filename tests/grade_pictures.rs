@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use glam::Vec3;
 use image::{DynamicImage, Rgb, RgbImage, imageops};
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::grading::hypotheses::fair_readings;
@@ -20,7 +21,8 @@ use photon_mapping::grading::picture::signature::measure;
 use photon_mapping::grading::picture::trials::{misread, simulate_dots};
 use photon_mapping::grading::picture::view::{PIXELS, View};
 use photon_mapping::grading::places::Places;
-use photon_mapping::grading::variation::{Hemisphere, Roulette, Variation};
+use photon_mapping::grading::variation::{Hemisphere, Roulette, Simulation, Variation};
+use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use serde_json::Value;
 use support::{folder, json, run_line};
 
@@ -172,6 +174,13 @@ fn a_picture_that_is_red_all_over_is_the_nan_of_the_frame() {
     // With four billion photons a right picture is red all over, too.
     let judgement = judge(&red, Some(4_000_000_000));
     assert!(!judgement.is_incorrect(), "{judgement:?}");
+
+    let folder = folder();
+    let picture = folder.path().join("red.png");
+    paint(&expectations().view, &red, framework_dot).save(&picture).expect("it can be written");
+    let grade = grade(&picture, "");
+    assert_eq!((&grade["verdict"], &grade["score"]), (&"incorrect".into(), &2.0.into()));
+    assert_eq!(grade["misreading"], "nan-frame");
 }
 
 #[test]
@@ -283,25 +292,51 @@ fn dots_that_are_too_large_are_told_and_not_judged() {
     for (seed, emitted) in [(42, 20_000), (43, MILLION), (44, 5 * MILLION)] {
         let red = simulate(Variation::default(), seed, emitted, 0.0);
         assert!(!DotSize::new(&red, view).expect("there are enough").is_too_large(), "{emitted}");
-        // Three pixels a side.
-        let mut large = red.clone();
-        for (at, _) in red.iter().enumerate().filter(|(_, is_red)| **is_red) {
-            for other in
-                [at + 1, at + 2, at + 640, at + 641, at + 642, at + 1280, at + 1281, at + 1282]
-            {
-                large[other.min(PIXELS - 1)] = true;
-            }
+        for more in [1, 2] {
+            let large = enlarged(&red, more);
+            let size = DotSize::new(&large, view).expect("there are enough");
+            assert!(size.is_too_large(), "{emitted}: {more}");
+            // Those that were two wide.
+            assert_eq!(size.extent(), [2 + more; 2], "{emitted}");
+            assert!(size.reason().contains("too large, up to"), "{emitted}: {}", size.reason());
         }
-        let size = DotSize::new(&large, view).expect("there are enough");
-        assert!(size.is_too_large(), "{emitted}");
-        // Those that were two wide are four now.
-        let extent = size.extent();
-        assert!(extent.iter().all(|side| (3..=4).contains(side)), "{emitted}: {extent:?}");
-        assert!(size.reason().contains("too large, up to"), "{emitted}: {}", size.reason());
     }
+    // With half as large a radius again: eight cubes, each half a radius off, are one of that size.
+    let half = 0.5 * PHOTON_DOT_RADIUS;
+    let mut larger = vec![false; PIXELS];
+    for record in Simulation::new(Variation::default(), 50, MILLION, 1000).trace(0..MILLION) {
+        for corner in 0..8 {
+            let side = |axis: u32| if corner >> axis & 1 == 1 { half } else { -half };
+            let off = Vec3::new(side(0), side(1), side(2));
+            view.for_each_pixel_of(record.position + off, |pixel| larger[pixel] = true);
+        }
+    }
+    assert!(DotSize::new(&larger, view).expect("there are enough").is_too_large());
+    let few = simulate(Variation::default(), 46, 2000, 0.0);
+    assert!(few.iter().any(|is_red| *is_red) && DotSize::new(&few, view).is_none());
     let hypothesis = misread("direct-stored", 0).expect("it is known");
     let red = simulate(hypothesis.variation, 45, MILLION, 0.0);
     assert!(!DotSize::new(&red, view).expect("there are enough").is_too_large());
+
+    let folder = folder();
+    let picture = folder.path().join("large.png");
+    let large = enlarged(&simulate(Variation::default(), 47, MILLION, 0.0), 2);
+    paint(view, &large, framework_dot).save(&picture).expect("it can be written");
+    let grade = grade(&picture, "");
+    assert_eq!(grade["verdict"], "unreadable", "{grade:#}");
+    assert!(found(&grade).contains("too large, up to 4 x 4 pixels"), "{}", found(&grade));
+}
+
+/// The dots `red`, with `more` pixels to the right and downwards.
+fn enlarged(red: &[bool], more: usize) -> Vec<bool> {
+    let mut large = red.to_vec();
+    for (at, _) in red.iter().enumerate().filter(|(_, is_red)| **is_red) {
+        for (right, down) in (0..=more).flat_map(|right| (0..=more).map(move |down| (right, down)))
+        {
+            large[(at + right + 640 * down).min(PIXELS - 1)] = true;
+        }
+    }
+    large
 }
 
 #[test]
@@ -398,6 +433,19 @@ fn the_command_line_grades_pictures() {
 }
 
 #[test]
+fn dots_straight_from_the_light_are_not_plausible() {
+    let folder = folder();
+    let picture = folder.path().join("light.png");
+    let hypothesis = misread("direct-stored", 0).expect("it is known");
+    let red = simulate(hypothesis.variation, 48, MILLION, 0.0);
+    let painted = paint(&expectations().view, &red, framework_dot);
+    painted.save(&picture).expect("it can be written");
+    let grade = grade(&picture, " --emitted 1000000");
+    assert_eq!(grade["misreading"], "direct-stored", "{grade:#}");
+    assert_eq!((&grade["verdict"], &grade["score"]), (&"incorrect".into(), &2.0.into()));
+}
+
+#[test]
 fn a_list_and_a_picture_of_one_student() {
     let folder = folder();
     let at = |name: &str| folder.path().join(name);
@@ -409,6 +457,36 @@ fn a_list_and_a_picture_of_one_student() {
         findings.iter().map(|f| f["check"].as_str().expect("it has a name").to_owned()).collect()
     };
     let seed = photon_mapping::assignment8::SEED;
+    // A picture of another camera, and one of a run that sent out more of the same photons.
+    for (name, emitted, view, odd) in [
+        ("camera", 200_000, all.shifted(), "camera"),
+        ("longer", MILLION, &all.view, "list and picture"),
+    ] {
+        let student = at(name);
+        fs::create_dir(&student).expect("it can be made");
+        fs::write(student.join("photons.csv"), &text).expect("it can be written");
+        let red = simulate_dots(Variation::default(), seed, emitted, 0.0, &all.places, view);
+        let picture = paint(view, &red, framework_dot);
+        picture.save(student.join("picture.png")).expect("it can be written");
+        let graded = grade(&student, "");
+        assert_eq!(graded["verdict"], "correct", "{graded:#}");
+        let remarks = graded["findings"].as_array().expect("there are some").iter();
+        let remarks = remarks.filter(|finding| finding["passed"] == false);
+        assert_eq!(remarks.map(|it| &it["check"]).collect::<Vec<_>>(), [odd], "{graded:#}");
+    }
+    // A picture that is wrong costs nothing beside a list that is right.
+    let misread = misread("uniform-hemisphere", 3).expect("it is known");
+    let student = at("misread");
+    fs::create_dir(&student).expect("it can be made");
+    fs::write(student.join("photons.csv"), &text).expect("it can be written");
+    let picture = paint(&all.view, &simulate(misread.variation, 49, MILLION, 0.0), framework_dot);
+    picture.save(student.join("picture.png")).expect("it can be written");
+    let graded = grade(&student, "");
+    assert_eq!((&graded["verdict"], &graded["score"]), (&"correct".into(), &4.0.into()));
+    let odd = graded["findings"].as_array().expect("there are some").iter();
+    let odd: Vec<_> = odd.filter(|finding| finding["passed"] == false).collect();
+    assert!(odd.iter().any(|it| it["check"] == "density of dots"), "{odd:#?}");
+    assert!(odd.iter().all(|it| it["weight"] == "remark"), "{odd:#?}");
     for (seed, is_together) in [(seed, true), (seed + 1, false)] {
         let student = at(&format!("student-{seed}"));
         fs::create_dir(&student).expect("it can be made");

@@ -1,8 +1,9 @@
 //! The grader's judgement of lists, through the library.
 
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use photon_mapping::accuracy::table::ExpectedTable;
 use photon_mapping::assignment8::{create_light, create_scene};
 use photon_mapping::grading::hypotheses::{
@@ -15,7 +16,7 @@ use photon_mapping::grading::policy::Policy;
 use photon_mapping::grading::signature::{Effort, Signatures, classes, measure};
 use photon_mapping::grading::statistics::{Law, corrected, fit, normal_tails, towards};
 use photon_mapping::grading::variation::{Hemisphere, Roulette, Simulation, Variation};
-use photon_mapping::grading::verdict::{Verdict, Weight};
+use photon_mapping::grading::verdict::{Finding, Verdict, Weight};
 use photon_mapping::photon_list::reader::PhotonList;
 use photon_mapping::photon_list::record::{Columns, PhotonRecord};
 use photon_mapping::random::photon_random;
@@ -44,6 +45,11 @@ fn positions_of(records: &[PhotonRecord]) -> Observation {
 
 fn is_incorrect(judgement: &Judgement) -> bool {
     judgement.findings.iter().any(|finding| finding.is_fault())
+}
+
+/// Whether photons are said to come straight from the light.
+fn says_direct(judgement: &Judgement) -> bool {
+    judgement.findings.iter().any(|finding| finding.check == "indirect only" && finding.is_fault())
 }
 
 fn name(judgement: &Judgement) -> Option<&str> {
@@ -224,6 +230,8 @@ fn misreadings_are_named_from_positions_alone() {
         let judgement = judge(&observation, Some(EMITTED as f64), true, &EXPECTATIONS);
         assert!(is_incorrect(&judgement), "{}", hypothesis.title);
         assert_eq!(name(&judgement), Some(hypothesis.id), "{}", hypothesis.title);
+        // The name says it all.
+        assert!(!says_direct(&judgement), "{}", hypothesis.title);
     }
 }
 
@@ -260,6 +268,7 @@ fn what_no_misreading_explains_gets_no_name() {
         let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
         assert!(is_incorrect(&judgement));
         assert_eq!(name(&judgement), None);
+        assert!(!says_direct(&judgement));
     }
 }
 
@@ -288,6 +297,9 @@ fn a_wrong_intensity_costs_nothing() {
     assert!(remarks_on(&with_factor(1.0), Some(EMITTED as f64)).is_empty());
     // By the word of the course, it would be too few.
     assert!(is_incorrect(&judge(&halved, Some(400_000.0), true, &EXPECTATIONS)));
+    // No factor of an intensity excuses the number that the course gives.
+    let right = with_factor(1.0);
+    assert!(is_incorrect(&judge(&right, Some(0.1 * EMITTED as f64), true, &EXPECTATIONS)));
 }
 
 #[test]
@@ -295,7 +307,19 @@ fn an_intensity_alone_wrong_costs_nothing() {
     let columns = Columns { intensity: true, ..Columns::default() };
     let of_reference = records(Variation::default(), 78, EMITTED);
     let stored = of_reference.len() as f64 / EMITTED as f64;
-    for factor in [1000.0, 1.0 / stored, std::f64::consts::TAU, 10.0] {
+    let slips = [
+        (4.0 * PI, "4 pi"),
+        (2.0 * PI, "2 pi"),
+        (10.0, "10"),
+        (100.0, "100"),
+        (1000.0, "1000"),
+        (PI, "pi"),
+        (1.0 / PI, "1/pi"),
+        (0.25 / PI, "1/(4 pi)"),
+    ];
+    let slips = slips.map(|(factor, name)| (factor, format!("without a factor of {name} it")));
+    let by_stored = (1.0 / stored, "which cannot be".to_owned());
+    for (factor, words) in slips.into_iter().chain([by_stored]) {
         let mut wrong = of_reference.clone();
         wrong.iter_mut().for_each(|record| record.intensity *= factor as f32);
         let observation = observed(wrong, columns);
@@ -305,7 +329,22 @@ fn an_intensity_alone_wrong_costs_nothing() {
         let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
         let checks: Vec<_> = remarks.iter().map(|it| it.check).collect();
         assert_eq!(checks, ["number by intensity"], "{factor}");
+        assert!(remarks[0].found.contains(&words), "{factor}: {}", remarks[0].found);
     }
+}
+
+#[test]
+fn a_misreading_is_named_where_the_intensity_is_off_by_a_known_factor() {
+    let uniform = Variation { hemisphere: Hemisphere::Uniform, ..Variation::default() };
+    let mut of_uniform = records(uniform, 82, EMITTED);
+    of_uniform.iter_mut().for_each(|record| record.intensity *= std::f32::consts::TAU);
+    let observation = observed(of_uniform, Columns { intensity: true, ..Columns::default() });
+    let judgement = judge(&observation, observation.emitted_by_intensity, false, &EXPECTATIONS);
+    assert!(is_incorrect(&judgement));
+    assert_eq!(name(&judgement), Some("uniform-hemisphere"));
+    let by_intensity = judgement.findings.iter().find(|it| it.check == "number by intensity");
+    assert!(by_intensity.is_some_and(|it| !it.is_fault()), "{by_intensity:?}");
+    assert_eq!(judgement.emitted, EMITTED as f64);
 }
 
 #[test]
@@ -342,6 +381,8 @@ fn no_name_is_given_that_the_number_contradicts() {
         let judgement = judge(&observation, Some(EMITTED as f64), by_course, &EXPECTATIONS);
         assert!(is_incorrect(&judgement), "{of_both:?}");
         assert_eq!(name(&judgement), None, "{of_both:?}");
+        // Self-hits, of which the tops of the boxes have many, are not direct.
+        assert!(!says_direct(&judgement) || of_both.direct_stored, "{of_both:?}");
     }
     // As rounding has it.
     let reading = Reading { offset: Offset::AlongNormal(0.0), ..Reading::REFERENCE };
@@ -383,6 +424,45 @@ fn positions_with_few_decimals_are_correct_and_remarked_on() {
         let checks: Vec<_> = remarks.iter().map(|it| it.check).collect();
         assert_eq!(checks, remark.into_iter().collect::<Vec<_>>(), "{decimals}");
     }
+}
+
+#[test]
+fn photons_that_cannot_be_where_they_are_are_told_first() {
+    let cases = [
+        ("finite", Weight::Grave, Vec3::NAN),
+        ("on surfaces", Weight::Grave, Vec3::new(0.0, 0.0, 0.02)),
+        ("footprints", Weight::Fault, Vec3::new(0.33, -0.37, 0.0)),
+    ];
+    for (check, weight, position) in cases {
+        let faults_of = |every: usize| {
+            let mut moved = records(Variation::default(), 83, EMITTED);
+            moved.iter_mut().step_by(every).for_each(|record| record.position = position);
+            let judgement = judge(&positions_of(&moved), Some(EMITTED as f64), true, &EXPECTATIONS);
+            let faults = judgement.findings.into_iter().filter(Finding::is_fault);
+            faults.collect::<Vec<_>>()
+        };
+        let faults = faults_of(500);
+        assert_eq!((faults[0].check, faults[0].weight), (check, weight));
+        // Where they are missed, it is for no other reason.
+        let faults = faults_of(3);
+        assert_eq!(faults[0].check, check);
+        assert!(faults.len() > 1 && faults[1..].iter().all(|it| it.advice.contains("echo")));
+    }
+}
+
+#[test]
+fn photons_side_by_side_are_seen() {
+    let mut of_reference = records(Variation::default(), 84, EMITTED);
+    let beside = |record: &PhotonRecord| {
+        let position = record.position + Vec3::splat(5e-6);
+        PhotonRecord { position, ..*record }
+    };
+    let others: Vec<PhotonRecord> = of_reference.iter().step_by(50).map(beside).collect();
+    of_reference.extend(others);
+    let judgement = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
+    let faults: Vec<_> = judgement.findings.iter().filter(|it| it.is_fault()).collect();
+    assert_eq!(faults.iter().map(|it| it.check).collect::<Vec<_>>(), ["same place"]);
+    assert!(!faults[0].found.contains("exactly"), "{}", faults[0].found);
 }
 
 #[test]
@@ -528,6 +608,23 @@ fn photons_straight_from_the_light_alone_are_seen_by_their_places() {
     let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
     let fault = judgement.findings.iter().find(|it| it.is_fault()).expect("a fault");
     assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
+    // Where directions tell it as well, it is told once.
+    let columns = Columns { to_light: true, ..Columns::default() };
+    let judgement = judge(&observed(records, columns), Some(EMITTED as f64), true, &EXPECTATIONS);
+    let told = judgement.findings.iter().filter(|it| it.check == "indirect only" && it.is_fault());
+    assert_eq!(told.count(), 1);
+}
+
+#[test]
+fn self_hits_among_positions_with_few_decimals_are_not_said_to_be_direct() {
+    let self_hits = no_offset([0.2, 0.6, 0.6, 0.6, 0.6, 0.3, 0.2, 0.6, 0.6, 0.6, 0.6, 0.15]);
+    let mut of_self_hits = records(self_hits.variation, 85, EMITTED);
+    for record in &mut of_self_hits {
+        record.position = ((record.position.as_dvec3() * 100.0).round() / 100.0).as_vec3();
+    }
+    let judgement = judge(&positions_of(&of_self_hits), None, false, &EXPECTATIONS);
+    assert!(is_incorrect(&judgement) && name(&judgement).is_none());
+    assert!(!says_direct(&judgement), "{:#?}", judgement.findings);
 }
 
 #[test]
