@@ -190,8 +190,43 @@ fn pictures_make_a_class_too_and_those_that_are_the_same_are_told() {
         assert!(twin.contains(&other.submission.name), "{twin}");
     }
     // A file that is named twice has nothing in common with itself.
-    let twice = collect(&[at("class/ann/1.png"), at("class/ann/1.png")]);
+    let twice = collect(&[at("class/ann/1.png"), at("class/ben/../ann/1.png")]);
     assert!(twice.len() == 2 && twice.iter().all(|handed_in| handed_in.twins.is_empty()));
+}
+
+#[test]
+#[cfg(unix)]
+fn what_a_class_s_folder_has_besides_folders_is_told() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    let list = "x,y,z\n1,2,3\n";
+    for student in ["class/ann", "class/ben", "elsewhere"] {
+        write(at(student).join("photons.csv"), list);
+    }
+    write(at("class/yves.zip"), b"PK\x03\x04");
+    write(at("class/roster.xlsx"), b"PK\x03\x04");
+    std::os::unix::fs::symlink(at("elsewhere"), at("class/zoe")).unwrap();
+    let handed_in = collect(&[at("class")]);
+    let names: Vec<_> = handed_in.iter().map(|one| one.submission.name.clone()).collect();
+    let expected = ["class/ann", "class/ben", "class/yves.zip", "class/zoe"];
+    assert_eq!(names, expected.map(|name| at(name).display().to_string()));
+    let problem = |at: usize| handed_in[at].problem.as_deref().unwrap_or_default();
+    assert!(problem(0).is_empty() && problem(1).is_empty());
+    assert!(problem(2).contains("packed (zip)"), "{}", problem(2));
+    assert!(problem(3).contains("a link"), "{}", problem(3));
+    assert!(handed_in[3].submission.list.is_none());
+}
+
+#[test]
+fn names_count_without_their_capitals() {
+    let folder = folder();
+    let at = |path: &str| folder.path().join(path);
+    write(at("two/Photons.CSV"), "x,y,z\n1,2,3\n");
+    write(at("two/test.csv"), "x,y,z\n4,5,6\n");
+    write(at("broken/PHOTONS.CSV"), "x;why\n1;2\n");
+    let [two, broken] = &collect(&[at("two"), at("broken")])[..] else { panic!("two students") };
+    assert_eq!(two.submission.list, Some(at("two/Photons.CSV")), "{two:?}");
+    assert_eq!(broken.submission.list, Some(at("broken/PHOTONS.CSV")), "{broken:?}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3Swizzles};
 use photon_mapping::accuracy::table::ExpectedTable;
 use photon_mapping::assignment8::{create_light, create_scene};
 use photon_mapping::grading::hypotheses::{
@@ -11,6 +11,7 @@ use photon_mapping::grading::hypotheses::{
 };
 use photon_mapping::grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use photon_mapping::grading::observation::{Counts, Observation, observe};
+use photon_mapping::grading::pairs::pairs;
 use photon_mapping::grading::places::{Place, Places};
 use photon_mapping::grading::policy::Policy;
 use photon_mapping::grading::signature::{Effort, Signatures, classes, measure};
@@ -270,6 +271,74 @@ fn what_no_misreading_explains_gets_no_name() {
         assert_eq!(name(&judgement), None);
         assert!(!says_direct(&judgement));
     }
+}
+
+#[test]
+fn two_misreadings_at_once_are_told_and_not_named() {
+    let pairs = pairs();
+    for pair in pairs.iter().step_by(9) {
+        let judgement =
+            judge(&positions_of(&records(pair.variation, 83, EMITTED)), None, false, &EXPECTATIONS);
+        assert!(is_incorrect(&judgement), "{}", pair.title);
+        assert_eq!(name(&judgement), None, "{}", pair.title);
+        let told = judgement.pair.as_ref().expect(&pair.title);
+        assert_eq!(told.hypothesis.title, pair.title);
+        let faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+        for fault in faults {
+            assert!(fault.advice.contains(&pair.title), "{fault:#?}");
+        }
+    }
+}
+
+#[test]
+fn a_frame_left_at_zero_sends_photons_along_the_normal() {
+    let variation = |zero_frame| {
+        let reading = Reading { fallback_threshold: 2.0, ..Reading::REFERENCE };
+        Variation { reading, zero_frame, ..Variation::default() }
+    };
+    let is_wall = |record: &PhotonRecord| {
+        let facet = PLACES.facets.get(usize::from(record.surface));
+        facet.is_some_and(|facet| facet.normal.x < -0.999)
+    };
+    let of_zero = records(variation(true), 84, EMITTED);
+    assert!(of_zero.iter().all(|record| record.position.is_finite()));
+    let pairs = of_zero.windows(2).filter(|pair| {
+        pair[0].photon == pair[1].photon
+            && pair[1].bounce == pair[0].bounce + 1
+            && is_wall(&pair[0])
+    });
+    let mut count = 0;
+    for pair in pairs {
+        let [from, to] = [pair[0].position, pair[1].position];
+        assert!((from - to).yz().abs().max_element() < 1e-5, "{from} {to}");
+        assert!(from.x > to.x && pair[1].to_light.x > 0.999);
+        count += 1;
+    }
+    assert!(count > 100, "{count}");
+    // Else they are lost, in directions that are not numbers.
+    let of_nan = records(variation(false), 84, EMITTED);
+    assert!(of_nan.iter().any(|record| record.position.is_nan()));
+}
+
+#[test]
+fn a_bounce_too_few_is_seen_in_the_number_of_photons() {
+    let signatures = Signatures::measure(&PLACES, 2, Effort::QUICK);
+    let expectations = Expectations::new(PLACES.clone(), signatures);
+    let judged = |fewer_bounces, emitted| {
+        let variation = Variation { fewer_bounces, ..Variation::default() };
+        let records = Simulation::new(variation, 85, EMITTED, 2).trace(0..EMITTED);
+        judge(&positions_of(&records), emitted, true, &expectations)
+    };
+    let emitted = Some(EMITTED as f64);
+    let short = judged(1, emitted);
+    assert_eq!(name(&short), Some("bounce-off-by-one"));
+    let of_bounces = |judgement: &Judgement| {
+        let mut tests = judgement.findings.iter();
+        tests.find(|test| test.check == "number of bounces").expect("it is tested").passed
+    };
+    assert!(!of_bounces(&short));
+    let right = judged(0, emitted);
+    assert!(!is_incorrect(&right) && of_bounces(&right));
 }
 
 #[test]

@@ -189,24 +189,13 @@ pub fn misreadings() -> Vec<Hypothesis> {
             Variation { fewer_bounces: 1, ..plain },
         ),
     ];
-    // Positions alone can hardly tell one of these ways from another.
-    let no_roulette = |title: String, chance: f32, most_bounces: i32| {
-        known(
-            "no-roulette",
-            &title,
-            Section::PhotonScatteringAbsorption,
-            "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from the \
-             material that was hit, and end the path otherwise.",
-            Variation { roulette: Roulette::Constant(chance), most_bounces, ..plain },
-        )
-    };
     for chance in [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9] {
         let title = format!("photons survive with the same chance, {chance}, on every material");
-        all.push(no_roulette(title, chance, i32::MAX));
+        all.push(no_roulette(&title, chance, i32::MAX));
     }
     for most_bounces in [3, 4, 5, 6, 8, 10, 20] {
         let title = format!("every photon is scattered, up to {most_bounces} times");
-        all.push(no_roulette(title, 1.0, most_bounces));
+        all.push(no_roulette(&title, 1.0, most_bounces));
     }
     // Whoever misreads one step may take t and b as they are written.
     let literal = all.iter().filter(|hypothesis| {
@@ -239,6 +228,18 @@ pub fn no_offset(self_hits: [f32; FACETS]) -> Hypothesis {
         "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the normal, \
          as the framework does for shadow rays.",
         Variation { self_hits, ..Variation::default() },
+    )
+}
+
+/// A roulette that takes no notice of the material. Positions alone can hardly tell one way to it from another.
+fn no_roulette(title: &str, chance: f32, most_bounces: i32) -> Hypothesis {
+    known(
+        "no-roulette",
+        title,
+        Section::PhotonScatteringAbsorption,
+        "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from the \
+         material that was hit, and end the path otherwise.",
+        Variation { roulette: Roulette::Constant(chance), most_bounces, ..Variation::default() },
     )
 }
 

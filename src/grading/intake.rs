@@ -57,10 +57,21 @@ pub struct HandedIn {
 /// picture that differ in the extension alone are one, and a class's folder has one in each folder in it.
 pub fn collect(paths: &[PathBuf]) -> Vec<HandedIn> {
     let mut all: Vec<HandedIn> = Vec::new();
-    let students = |path: &PathBuf| students(path).unwrap_or_else(|| vec![path.clone()]);
-    let paths: Vec<PathBuf> = paths.iter().flat_map(students).collect();
-    for path in &paths {
-        let handed_in = if path.is_dir() { from_folder(path) } else { from_file(path) };
+    let students = |path: &PathBuf| match students(path) {
+        Some(students) => students.into_iter().map(|student| (student, true)).collect(),
+        None => vec![(path.clone(), false)],
+    };
+    let (paths, of_class): (Vec<PathBuf>, Vec<bool>) = paths.iter().flat_map(students).unzip();
+    for (path, of_class) in paths.iter().zip(of_class) {
+        let handed_in = if of_class && path.is_symlink() {
+            // It may lead to another student's files, or anywhere.
+            let problem = "it is a link, which is not followed".to_owned();
+            HandedIn { problem: Some(problem), ..HandedIn::default() }
+        } else if path.is_dir() {
+            from_folder(path)
+        } else {
+            from_file(path)
+        };
         all.push(HandedIn {
             submission: Submission { name: name(path), ..handed_in.submission },
             ..handed_in
@@ -79,10 +90,10 @@ pub fn collect(paths: &[PathBuf]) -> Vec<HandedIn> {
     all
 }
 
-/// The folders of a class's students, if `folder` is that of a class: it has no list or picture itself, but
-/// at least two folders in it have one. What they lack is said in each one's grade.
+/// What a class's students handed in, if `folder` is that of a class: it has no list or picture itself, but at least
+/// two folders in it have one. What they lack, and what is a link or packed, is said in each one's grade.
 fn students(folder: &Path) -> Option<Vec<PathBuf>> {
-    let mut folders = Vec::new();
+    let (mut folders, mut others) = (Vec::new(), Vec::new());
     for entry in fs::read_dir(folder).ok()? {
         let entry = entry.ok()?;
         let (path, kind) = (entry.path(), entry.file_type().ok()?);
@@ -91,6 +102,8 @@ fn students(folder: &Path) -> Option<Vec<PathBuf>> {
         }
         if kind.is_dir() {
             folders.push(path);
+        } else if kind.is_symlink() || is_called_packed(&path) {
+            others.push(path);
         } else if kind.is_file() {
             let is_list = is_called_a_list(&path) || starts_like_a_list(&path).unwrap_or_default();
             if is_list || is_picture(&path).unwrap_or_default() {
@@ -98,16 +111,28 @@ fn students(folder: &Path) -> Option<Vec<PathBuf>> {
             }
         }
     }
-    folders.sort();
     let has_files = |folder: &&PathBuf| {
         let Submission { list, picture, .. } = from_folder(folder).submission;
         list.is_some() || picture.is_some()
     };
-    (folders.iter().filter(has_files).take(2).count() == 2).then_some(folders)
+    let is_class = folders.iter().filter(has_files).take(2).count() == 2;
+    folders.append(&mut others);
+    folders.sort();
+    is_class.then_some(folders)
 }
 
 fn is_called_a_list(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "csv" || extension == "ply")
+    has_extension(path, &["csv", "ply"])
+}
+
+/// Spreadsheets and documents are packed too, but are not called so.
+fn is_called_packed(path: &Path) -> bool {
+    has_extension(path, &["zip", "gz", "tgz", "xz", "7z", "rar", "bz2", "zst", "tar"])
+}
+
+fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    extensions.iter().any(|known| extension == *known)
 }
 
 /// Notes submissions whose files are the same, byte by byte.
@@ -118,6 +143,8 @@ fn tell_twins(all: &mut [HandedIn]) {
             if is_list { list.clone() } else { picture.clone() }
         };
         let files: Vec<Option<PathBuf>> = all.iter().map(file).collect();
+        let paths: Vec<Option<PathBuf>> =
+            files.iter().map(|file| fs::canonicalize(file.as_ref()?).ok()).collect();
         let mut of_contents: HashMap<Contents, Vec<usize>> = HashMap::new();
         for (at, contents) in contents(&files).into_iter().enumerate() {
             if let Some(contents) = contents {
@@ -127,7 +154,7 @@ fn tell_twins(all: &mut [HandedIn]) {
         for twins in of_contents.values().filter(|twins| twins.len() > 1) {
             for at in twins {
                 // A file that is named twice is no twin of itself.
-                let is_other = |other: &&usize| *other != at && files[**other] != files[*at];
+                let is_other = |other: &&usize| paths[**other] != paths[*at];
                 let names = twins.iter().filter(is_other).take(5);
                 let names: Vec<_> =
                     names.map(|other| all[*other].submission.name.clone()).collect();
@@ -314,8 +341,8 @@ fn choice(
     let all: Vec<Option<PathBuf>> = files.iter().cloned().map(Some).collect();
     let contents = contents(&all);
     let is_usual = |path: &PathBuf| {
-        let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
-        ["photons", "assignment8"].contains(&stem)
+        let stem = path.file_stem().unwrap_or_default().to_ascii_lowercase();
+        ["photons", "assignment8"].iter().any(|usual| stem == *usual)
     };
     let is_same = contents[0].is_some() && contents.iter().all(|other| *other == contents[0]);
     let chosen = match files.iter().filter(|path| is_usual(path)).count() {

@@ -36,7 +36,7 @@ const MOST_FIRST_HITS: f64 = 0.5;
 const LEEWAY_OF_LOSS: f64 = 0.12;
 
 /// The logarithm of how much rarer two misreadings at once are than one of them.
-const RARER: f64 = -3.0;
+const RARER: f64 = -6.0;
 
 /// A misreading that explains a submission, or two at once.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::axes;
 use super::exact::exact_comparison;
 use super::judge_list::{Expectations, Judgement, judge};
+use super::naming::Explanation;
 use super::observation::observe;
 use super::picture::dots::find_dots;
 use super::picture::judge_picture;
@@ -134,7 +135,7 @@ fn grade_picture(
     let misreading = judgement.explanation.as_ref();
     let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
     let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
-        && misreading_id != Some("direct-stored");
+        && !stores_direct(&judgement.explanation, &judgement.pair);
     let grade = Grade {
         submission: submission.name.clone(),
         emitted: settings.emitted,
@@ -146,6 +147,11 @@ fn grade_picture(
         findings: judgement.findings.clone(),
     };
     Graded { grade, list: None }
+}
+
+/// Whether photons straight from the light are part of what explains a submission.
+fn stores_direct(alone: &Option<Explanation>, pair: &Option<Explanation>) -> bool {
+    alone.iter().chain(pair).any(|explanation| explanation.hypothesis.variation.direct_stored)
 }
 
 /// A remark, if the dots of `picture` are not the photons of `list`.
@@ -256,7 +262,7 @@ fn grade_list(
     };
     let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
     let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
-        && misreading_id != Some("direct-stored");
+        && !stores_direct(&judgement.explanation, &judgement.pair);
     let grade = Grade {
         submission: submission.name.clone(),
         emitted: emitted.map(|emitted| emitted as u64),

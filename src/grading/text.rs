@@ -49,7 +49,7 @@ pub fn heading(grade: &Grade, best: f64) -> String {
         let confidence = grade.misreading_confidence.unwrap_or_default();
         text += &format!("  misreading: {misreading} ({:.1} % sure)\n", 100.0 * confidence);
     } else if grade.verdict == Verdict::Incorrect {
-        text += "  misreading: none of the known ones explains it\n";
+        text += "  misreading: none of the known ones explains it alone\n";
     }
     text
 }

@@ -109,7 +109,7 @@ impl<'a> Pages<'a> {
                     }
                 }
             } @else if grade.verdict == Verdict::Incorrect {
-                p { "None of the known misreadings explains it." }
+                p { "None of the known misreadings explains it alone." }
             }
             (self.rubric(grade))
         }
