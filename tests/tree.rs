@@ -24,6 +24,15 @@ fn triangle(vertices: [Vec3; 3]) -> Triangle {
     Triangle { vertices, normal: Vec3::Z, parent_mesh_object: 0, facet: 0 }
 }
 
+/// A normal at right angles to a ray now and then, and not that of any plane, as a file's need not be.
+fn normal() -> impl Strategy<Value = Vec3> {
+    prop_oneof![
+        Just(Vec3::X),
+        Just(Vec3::NEG_Y),
+        point().prop_map(|point| point.normalize_or(Vec3::Z))
+    ]
+}
+
 /// A coordinate that other points often share.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![(-5_i8..=5).prop_map(f32::from), -5.0_f32..5.0]
@@ -35,6 +44,26 @@ fn point() -> impl Strategy<Value = Vec3> {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_tree_knows_which_side_is_met(
+        corners in prop::collection::vec(([point(), point(), point()], normal()), 1..200),
+        rays in prop::collection::vec((point(), point()), 40),
+    ) {
+        let with_normal = |(corners, normal)| Triangle { normal, ..triangle(corners) };
+        let triangles: Vec<_> = corners.into_iter().map(with_normal).collect();
+        let tree = Tree::new(&triangles);
+        for (origin, target) in rays {
+            for direction in [(target - origin).normalize_or(Vec3::Y), Vec3::Z] {
+                for start_error in [0.0, 0.01] {
+                    let ray = Ray { start_error, ..Ray::new(origin, direction) };
+                    let hit = brute_force(&triangles, &ray, |_, _| true);
+                    let expected = hit.map(|hit| (hit, triangles[hit.0].faces(direction)));
+                    prop_assert_eq!(tree.closest_and_side(&ray, &triangles), expected);
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_tree_finds_what_testing_all_finds(

@@ -59,6 +59,8 @@ struct Node {
 struct Leaf {
     /// By corner, then axis.
     corners: [[Four; 3]; 3],
+    /// By axis. The triangles have them too, but far away in memory.
+    normals: [Four; 3],
     indices: [u32; IN_LEAF],
 }
 
@@ -103,6 +105,7 @@ struct Search {
     slack: f32,
     closest: f32,
     index: u32,
+    is_front: bool,
 }
 
 impl Tree {
@@ -160,7 +163,17 @@ impl Tree {
         triangles: &[Triangle],
         of: impl Fn(&Triangle, f32) -> bool,
     ) -> Option<(usize, f32)> {
-        self.search(ray, triangles, of, false)
+        self.search(ray, triangles, of, false).map(|(hit, _)| hit)
+    }
+
+    /// The closest of all hits, as [`Self::closest`] gives it, and whether its triangle [faces](Triangle::faces)
+    /// the ray, without a look at the triangle itself.
+    pub fn closest_and_side(
+        &self,
+        ray: &Ray,
+        triangles: &[Triangle],
+    ) -> Option<((usize, f32), bool)> {
+        self.search(ray, triangles, |_, _| true, false)
     }
 
     /// Whether `ray` meets anything before its end.
@@ -174,7 +187,7 @@ impl Tree {
         triangles: &[Triangle],
         of: impl Fn(&Triangle, f32) -> bool,
         any_will_do: bool,
-    ) -> Option<(usize, f32)> {
+    ) -> Option<((usize, f32), bool)> {
         let (origin, direction) = (ray.position(), ray.ray_direction());
         let reach = (self.bounds.low - origin).abs().max((self.bounds.high - origin).abs());
         let mut search = Search {
@@ -185,6 +198,7 @@ impl Tree {
             slack: SLACK * reach.max_element() + ray.start_error,
             closest: ray.max_t,
             index: NO_CHILD,
+            is_front: false,
         };
         let mut stack = Vec::with_capacity(64);
         let mut next = Some((0, 0.0));
@@ -211,7 +225,8 @@ impl Tree {
             }
             next = stack.pop();
         }
-        (search.index != NO_CHILD).then_some((search.index as usize, search.closest))
+        let hit = (search.index as usize, search.closest);
+        (search.index != NO_CHILD).then_some((hit, search.is_front))
     }
 }
 
@@ -258,6 +273,12 @@ impl Search {
                 seen[2][lane] = shear.z * depth;
             }
         }
+        // Here, not where a triangle is met, so that all of the leaf is waited for at once.
+        let mut cosines = [0.0; IN_LEAF];
+        for lane in 0..IN_LEAF {
+            let normal = Vec3::from_array(leaf.normals.map(|axis| axis[lane]));
+            cosines[lane] = self.sheared.cosine(normal);
+        }
         let [a, b, c] = &seen;
         let mut may_be_met = [false; IN_LEAF];
         for lane in 0..IN_LEAF {
@@ -278,12 +299,11 @@ impl Search {
             };
             let index = leaf.indices[lane];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
-            // The triangle itself is far away in memory, so it is asked last.
             if (t < self.closest || is_tie)
-                && self.sheared.reaches(|| &triangles[index as usize], t)
+                && self.sheared.reaches(cosines[lane], t)
                 && of(&triangles[index as usize], t)
             {
-                (self.closest, self.index) = (t, index);
+                (self.closest, self.index, self.is_front) = (t, index, cosines[lane] <= 0.0);
             }
         }
     }
@@ -291,18 +311,15 @@ impl Search {
 
 impl Leaf {
     fn new(triangles: &[Triangle], items: &[Item]) -> Self {
-        let mut leaf = Self { corners: [[[0.0; IN_LEAF]; 3]; 3], indices: [0; IN_LEAF] };
-        for lane in 0..IN_LEAF {
-            let index = items.get(lane).unwrap_or(&items[0]).index;
-            leaf.indices[lane] = index;
-            for (corner, vertex) in leaf.corners.iter_mut().zip(triangles[index as usize].vertices)
-            {
-                for (axis, coordinate) in corner.iter_mut().zip(vertex.to_array()) {
-                    axis[lane] = coordinate;
-                }
-            }
+        let indices = std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).index);
+        let four = indices.map(|index: u32| &triangles[index as usize]);
+        let by_axis = |vectors: [Vec3; IN_LEAF]| [0, 1, 2].map(|axis| vectors.map(|v| v[axis]));
+        Self {
+            corners: [0, 1, 2]
+                .map(|corner| by_axis(four.map(|triangle| triangle.vertices[corner]))),
+            normals: by_axis(four.map(|triangle| triangle.normal)),
+            indices,
         }
-        leaf
     }
 }
 
