@@ -33,6 +33,8 @@ const SLACK: f32 = 1.0 / 524_288.0;
 /// Marks a child that is a leaf.
 const LEAF: u32 = 1 << 31;
 const NO_CHILD: u32 = u32::MAX;
+/// Few rays have so many boxes waiting: 22 at most in a mesh of a million triangles.
+const ORDINARY_STACK: usize = 32;
 
 type Boxes = [f32; WIDTH];
 type Four = [f32; IN_LEAF];
@@ -88,6 +90,7 @@ impl Bounds {
     }
 }
 
+/// A triangle on its way into the tree.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
@@ -200,22 +203,13 @@ impl Tree {
             index: NO_CHILD,
             is_front: false,
         };
-        let mut stack = Vec::with_capacity(64);
+        let mut stack = Stack::new();
         let mut next = Some((0, 0.0));
         while let Some((place, distance)) = next {
             if distance <= search.closest + 2.0 * search.slack {
                 if place & LEAF == 0 {
                     let node = &self.nodes[place as usize];
-                    let distances = search.enter(node);
-                    let start = stack.len();
-                    for (child, distance) in node.children.into_iter().zip(distances) {
-                        if distance < f32::INFINITY {
-                            // The farthest below, so that the nearest is visited first.
-                            let at = stack[start..].iter().position(|(_, d)| *d < distance);
-                            stack
-                                .insert(at.map_or(stack.len(), |at| start + at), (child, distance));
-                        }
-                    }
+                    stack.push_nearest_last(&node.children, &search.enter(node));
                 } else {
                     search.test(&self.leaves[(place & !LEAF) as usize], triangles, &of);
                     if any_will_do && search.index != NO_CHILD {
@@ -227,6 +221,61 @@ impl Tree {
         }
         let hit = (search.index as usize, search.closest);
         (search.index != NO_CHILD).then_some((hit, search.is_front))
+    }
+}
+
+/// Children that are still to be visited, and how far away their boxes begin.
+struct Stack {
+    /// On the processor's stack, because to ask for memory takes as long as to enter some nodes.
+    first: [(u32, f32); ORDINARY_STACK],
+    count: usize,
+    more: Vec<(u32, f32)>,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Self { first: [(NO_CHILD, 0.0); ORDINARY_STACK], count: 0, more: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, child: (u32, f32)) {
+        if let Some(place) = self.first.get_mut(self.count) {
+            *place = child;
+            self.count += 1;
+        } else {
+            self.more.push(child);
+        }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<(u32, f32)> {
+        if !self.more.is_empty() {
+            return self.more.pop();
+        }
+        self.count = self.count.checked_sub(1)?;
+        Some(self.first[self.count])
+    }
+
+    /// Adds those of a node's `children` whose `distances` are finite.
+    #[inline(always)]
+    fn push_nearest_last(&mut self, children: &[u32; WIDTH], distances: &Boxes) {
+        let mut entered = [(NO_CHILD, 0.0); WIDTH];
+        let mut count = 0;
+        // Without a branch, since no processor foresees which boxes are entered.
+        for (child, distance) in children.iter().zip(distances) {
+            entered[count] = (*child, *distance);
+            count += usize::from(*distance < f32::INFINITY);
+        }
+        for end in 1..count {
+            let mut place = end;
+            while place > 0 && entered[place - 1].1 < entered[place].1 {
+                entered.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+        for child in &entered[..count] {
+            self.push(*child);
+        }
     }
 }
 
