@@ -121,32 +121,30 @@ impl Tree {
                 Item { bounds, center: 0.5 * bounds.low + 0.5 * bounds.high, index }
             })
             .collect();
-        let bounds = items.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds));
+        let mut halving = Halving::default();
+        let root = halving.add(&mut items);
+        let bounds = halving.bounds(root);
         let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), bounds };
-        tree.add_node(triangles, &mut items);
+        tree.add_node(triangles, &halving, root);
         tree
     }
 
-    /// Adds a node for `items` and all below it, and gives its place.
-    fn add_node(&mut self, triangles: &[Triangle], items: &mut [Item]) -> u32 {
+    /// Adds a node for `part` and all below it, and gives its place.
+    fn add_node(&mut self, triangles: &[Triangle], halving: &Halving, part: Part) -> u32 {
         let place = self.nodes.len();
         let empty = [[f32::INFINITY; WIDTH]; 3];
         self.nodes.push(Node {
             ends: [empty, empty.map(|axis| axis.map(|low| -low))],
             children: [NO_CHILD; WIDTH],
         });
-        let mut parts = vec![items];
-        while parts.len() < WIDTH {
-            parts = parts.into_iter().flat_map(|part| <[_; 2]>::from(split(part))).collect();
-        }
-        let parts = parts.into_iter().filter(|part| !part.is_empty());
-        for (slot, part) in parts.enumerate() {
-            let bounds = part.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds));
-            let child = if part.len() <= IN_LEAF {
-                self.leaves.push(Leaf::new(triangles, part));
-                (self.leaves.len() - 1) as u32 | LEAF
-            } else {
-                self.add_node(triangles, part)
+        for (slot, part) in halving.boxes(part).into_iter().enumerate() {
+            let bounds = halving.bounds(part);
+            let child = match part {
+                Part::Leaf(items) => {
+                    self.leaves.push(Leaf::new(triangles, items));
+                    (self.leaves.len() - 1) as u32 | LEAF
+                }
+                Part::Halved(_) => self.add_node(triangles, halving, part),
             };
             let node = &mut self.nodes[place];
             node.children[slot] = child;
@@ -372,11 +370,102 @@ impl Leaf {
     }
 }
 
-/// Divides `items` where the surface area heuristic finds it cheapest; what fits a leaf stays whole.
-fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
-    if items.len() <= IN_LEAF {
-        return items.split_at_mut(items.len());
+/// The triangles halved until all parts fit a leaf: what nodes are then made of, so that a ray enters as few as can be.
+/// To halve three times for every node would leave half of the boxes empty. (Ylitie, Karras and Laine,
+/// *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017.)
+#[derive(Default)]
+struct Halving<'items> {
+    halved: Vec<Halved<'items>>,
+}
+
+#[derive(Clone, Copy)]
+enum Part<'items> {
+    Leaf(&'items [Item]),
+    /// Its place in [`Halving::halved`].
+    Halved(u32),
+}
+
+struct Halved<'items> {
+    bounds: Bounds,
+    halves: [Part<'items>; 2],
+    /// At `n - 1`, how many nodes are entered in this part if it becomes at most `n` boxes of the node above it: the
+    /// sum of the areas of all those nodes, to which the numbers of rays are proportional.
+    nodes: [f32; WIDTH],
+}
+
+impl<'items> Halving<'items> {
+    fn add(&mut self, items: &'items mut [Item]) -> Part<'items> {
+        if items.len() <= IN_LEAF {
+            return Part::Leaf(items);
+        }
+        let (left, right) = split(items);
+        let halves = [self.add(left), self.add(right)];
+        let [left, right] = halves.map(|half| self.bounds(half));
+        let bounds = left.and(right);
+        let nodes = self.nodes_of(bounds, halves);
+        self.halved.push(Halved { bounds, halves, nodes });
+        Part::Halved((self.halved.len() - 1) as u32)
     }
+
+    fn bounds(&self, part: Part) -> Bounds {
+        match part {
+            Part::Leaf(items) => items.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds)),
+            Part::Halved(place) => self.halved[place as usize].bounds,
+        }
+    }
+
+    fn nodes(&self, part: Part) -> [f32; WIDTH] {
+        match part {
+            Part::Leaf(_) => [0.0; WIDTH],
+            Part::Halved(place) => self.halved[place as usize].nodes,
+        }
+    }
+
+    fn nodes_of(&self, bounds: Bounds, halves: [Part; 2]) -> [f32; WIDTH] {
+        let [left, right] = halves.map(|half| self.nodes(half));
+        let mut nodes = [bounds.half_area() + best_share(&left, &right, WIDTH).0; WIDTH];
+        for boxes in 2..=WIDTH {
+            nodes[boxes - 1] = nodes[boxes - 2].min(best_share(&left, &right, boxes).0);
+        }
+        nodes
+    }
+
+    /// The parts that become the boxes of `part`'s node.
+    fn boxes(&self, part: Part<'items>) -> Vec<Part<'items>> {
+        let mut boxes = Vec::with_capacity(WIDTH);
+        match part {
+            Part::Leaf(_) => boxes.push(part),
+            Part::Halved(place) => self.share(place, WIDTH, &mut boxes),
+        }
+        boxes
+    }
+
+    /// Adds what becomes of the halves of the part at `place` if there are `count` boxes for them.
+    fn share(&self, place: u32, count: usize, boxes: &mut Vec<Part<'items>>) {
+        let halves = self.halved[place as usize].halves;
+        let [left, right] = halves.map(|half| self.nodes(half));
+        let share = best_share(&left, &right, count).1;
+        for (half, count) in halves.into_iter().zip([share, count - share]) {
+            let nodes = self.nodes(half);
+            // Boxes without which it goes as well stay empty.
+            let of_use = nodes.iter().take_while(|fewer| **fewer > nodes[count - 1]).count() + 1;
+            match half {
+                Part::Halved(place) if of_use > 1 => self.share(place, of_use, boxes),
+                _ => boxes.push(half),
+            }
+        }
+    }
+}
+
+/// How many nodes are entered in two halves that share `boxes`, when the first has as many as are best, and how many
+/// these are.
+fn best_share(left: &[f32; WIDTH], right: &[f32; WIDTH], boxes: usize) -> (f32, usize) {
+    let shares = (1..boxes).map(|share| (left[share - 1] + right[boxes - share - 1], share));
+    shares.fold((f32::INFINITY, 1), |best, share| if share.0 < best.0 { share } else { best })
+}
+
+/// Divides `items`, which do not fit a leaf, where the surface area heuristic finds it cheapest.
+fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for item in &*items {
         (low, high) = (low.min(item.center), high.max(item.center));
