@@ -84,6 +84,10 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    fn center(self) -> Vec3 {
+        0.5 * self.low + 0.5 * self.high
+    }
+
     fn half_area(self) -> f32 {
         let d = (self.high - self.low).max(Vec3::ZERO);
         d.x * d.y + d.y * d.z + d.z * d.x
@@ -94,7 +98,6 @@ impl Bounds {
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
-    center: Vec3,
     index: u32,
 }
 
@@ -116,10 +119,7 @@ impl Tree {
     pub fn new(triangles: &[Triangle]) -> Self {
         let mut items: Vec<Item> = (0..)
             .zip(triangles)
-            .map(|(index, triangle)| {
-                let bounds = Bounds::of(triangle);
-                Item { bounds, center: 0.5 * bounds.low + 0.5 * bounds.high, index }
-            })
+            .map(|(index, triangle)| Item { bounds: Bounds::of(triangle), index })
             .collect();
         let mut halving = Halving::default();
         let root = halving.add(&mut items);
@@ -468,17 +468,19 @@ fn best_share(left: &[f32; WIDTH], right: &[f32; WIDTH], boxes: usize) -> (f32, 
 fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for item in &*items {
-        (low, high) = (low.min(item.center), high.max(item.center));
+        let center = item.bounds.center();
+        (low, high) = (low.min(center), high.max(center));
     }
     let extent = high - low;
     let scale = BINS as f32 * (1.0 - 1e-6) / extent;
-    let bin = |item: &Item, axis: usize| {
-        (((item.center[axis] - low[axis]) * scale[axis]) as usize).min(BINS - 1)
+    let bins_of = |item: &Item| {
+        let places = (item.bounds.center() - low) * scale;
+        places.to_array().map(|place| (place as i32 as usize).min(BINS - 1))
     };
     let mut bins = [[(0_usize, Bounds::EMPTY); BINS]; 3];
     for item in &*items {
-        for (axis, bins) in bins.iter_mut().enumerate() {
-            let (count, bounds) = &mut bins[bin(item, axis)];
+        for (bins, bin) in bins.iter_mut().zip(bins_of(item)) {
+            let (count, bounds) = &mut bins[bin];
             (*count, *bounds) = (*count + 1, bounds.and(item.bounds));
         }
     }
@@ -505,7 +507,7 @@ fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
     let middle = if cost < f32::INFINITY {
         let mut middle = 0;
         for place in 0..items.len() {
-            if bin(&items[place], axis) < cut {
+            if bins_of(&items[place])[axis] < cut {
                 items.swap(place, middle);
                 middle += 1;
             }
