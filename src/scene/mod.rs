@@ -134,11 +134,10 @@ impl Scene {
                 None => self.hits(ray).next().is_some(),
             };
         };
-        let is_front = |index: usize| self.triangles[index].faces(ray.ray_direction());
-        let closest = match self.closest(ray, |_, _| true) {
-            Some(hit) if !is_front(hit.0) => Some(self.front_beside(ray, hit).unwrap_or(hit)),
-            hit => hit,
-        };
+        let closest = self.closest_and_side(ray).map(|(hit, is_front)| {
+            let front = if is_front { None } else { self.front_beside(ray, hit) };
+            front.unwrap_or(hit)
+        });
         if let Some((index, t)) = closest {
             *state = IntersectionState {
                 intersection_ray: *ray,
@@ -171,6 +170,15 @@ impl Scene {
                     depth_of_start <= ray.start_error
                 }
         })
+    }
+
+    /// The closest hit of `ray` before its `max_t`, and whether it is of a front.
+    fn closest_and_side(&self, ray: &Ray) -> Option<((usize, f32), bool)> {
+        if let Some(tree) = &self.tree {
+            return tree.closest_and_side(ray, &self.triangles);
+        }
+        let hit = self.closest(ray, |_, _| true)?;
+        Some((hit, self.triangles[hit.0].faces(ray.ray_direction())))
     }
 
     /// The closest of the hits `of` of `ray` before its `max_t`: a triangle and its distance.

@@ -33,6 +33,8 @@ const SLACK: f32 = 1.0 / 524_288.0;
 /// Marks a child that is a leaf.
 const LEAF: u32 = 1 << 31;
 const NO_CHILD: u32 = u32::MAX;
+/// Few rays have so many boxes waiting: 22 at most in a mesh of a million triangles.
+const ORDINARY_STACK: usize = 32;
 
 type Boxes = [f32; WIDTH];
 type Four = [f32; IN_LEAF];
@@ -59,6 +61,8 @@ struct Node {
 struct Leaf {
     /// By corner, then axis.
     corners: [[Four; 3]; 3],
+    /// By axis. The triangles have them too, but far away in memory.
+    normals: [Four; 3],
     indices: [u32; IN_LEAF],
 }
 
@@ -80,16 +84,20 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    fn center(self) -> Vec3 {
+        0.5 * self.low + 0.5 * self.high
+    }
+
     fn half_area(self) -> f32 {
         let d = (self.high - self.low).max(Vec3::ZERO);
         d.x * d.y + d.y * d.z + d.z * d.x
     }
 }
 
+/// A triangle on its way into the tree.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
-    center: Vec3,
     index: u32,
 }
 
@@ -103,6 +111,7 @@ struct Search {
     slack: f32,
     closest: f32,
     index: u32,
+    is_front: bool,
 }
 
 impl Tree {
@@ -110,37 +119,32 @@ impl Tree {
     pub fn new(triangles: &[Triangle]) -> Self {
         let mut items: Vec<Item> = (0..)
             .zip(triangles)
-            .map(|(index, triangle)| {
-                let bounds = Bounds::of(triangle);
-                Item { bounds, center: 0.5 * bounds.low + 0.5 * bounds.high, index }
-            })
+            .map(|(index, triangle)| Item { bounds: Bounds::of(triangle), index })
             .collect();
-        let bounds = items.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds));
+        let mut halving = Halving::default();
+        let root = halving.add(&mut items);
+        let bounds = halving.bounds(root);
         let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), bounds };
-        tree.add_node(triangles, &mut items);
+        tree.add_node(triangles, &halving, root);
         tree
     }
 
-    /// Adds a node for `items` and all below it, and gives its place.
-    fn add_node(&mut self, triangles: &[Triangle], items: &mut [Item]) -> u32 {
+    /// Adds a node for `part` and all below it, and gives its place.
+    fn add_node(&mut self, triangles: &[Triangle], halving: &Halving, part: Part) -> u32 {
         let place = self.nodes.len();
         let empty = [[f32::INFINITY; WIDTH]; 3];
         self.nodes.push(Node {
             ends: [empty, empty.map(|axis| axis.map(|low| -low))],
             children: [NO_CHILD; WIDTH],
         });
-        let mut parts = vec![items];
-        while parts.len() < WIDTH {
-            parts = parts.into_iter().flat_map(|part| <[_; 2]>::from(split(part))).collect();
-        }
-        let parts = parts.into_iter().filter(|part| !part.is_empty());
-        for (slot, part) in parts.enumerate() {
-            let bounds = part.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds));
-            let child = if part.len() <= IN_LEAF {
-                self.leaves.push(Leaf::new(triangles, part));
-                (self.leaves.len() - 1) as u32 | LEAF
-            } else {
-                self.add_node(triangles, part)
+        for (slot, part) in halving.boxes(part).into_iter().enumerate() {
+            let bounds = halving.bounds(part);
+            let child = match part {
+                Part::Leaf(items) => {
+                    self.leaves.push(Leaf::new(triangles, items));
+                    (self.leaves.len() - 1) as u32 | LEAF
+                }
+                Part::Halved(_) => self.add_node(triangles, halving, part),
             };
             let node = &mut self.nodes[place];
             node.children[slot] = child;
@@ -160,7 +164,17 @@ impl Tree {
         triangles: &[Triangle],
         of: impl Fn(&Triangle, f32) -> bool,
     ) -> Option<(usize, f32)> {
-        self.search(ray, triangles, of, false)
+        self.search(ray, triangles, of, false).map(|(hit, _)| hit)
+    }
+
+    /// The closest of all hits, as [`Self::closest`] gives it, and whether its triangle [faces](Triangle::faces)
+    /// the ray, without a look at the triangle itself.
+    pub fn closest_and_side(
+        &self,
+        ray: &Ray,
+        triangles: &[Triangle],
+    ) -> Option<((usize, f32), bool)> {
+        self.search(ray, triangles, |_, _| true, false)
     }
 
     /// Whether `ray` meets anything before its end.
@@ -174,7 +188,7 @@ impl Tree {
         triangles: &[Triangle],
         of: impl Fn(&Triangle, f32) -> bool,
         any_will_do: bool,
-    ) -> Option<(usize, f32)> {
+    ) -> Option<((usize, f32), bool)> {
         let (origin, direction) = (ray.position(), ray.ray_direction());
         let reach = (self.bounds.low - origin).abs().max((self.bounds.high - origin).abs());
         let mut search = Search {
@@ -185,23 +199,15 @@ impl Tree {
             slack: SLACK * reach.max_element() + ray.start_error,
             closest: ray.max_t,
             index: NO_CHILD,
+            is_front: false,
         };
-        let mut stack = Vec::with_capacity(64);
+        let mut stack = Stack::new();
         let mut next = Some((0, 0.0));
         while let Some((place, distance)) = next {
             if distance <= search.closest + 2.0 * search.slack {
                 if place & LEAF == 0 {
                     let node = &self.nodes[place as usize];
-                    let distances = search.enter(node);
-                    let start = stack.len();
-                    for (child, distance) in node.children.into_iter().zip(distances) {
-                        if distance < f32::INFINITY {
-                            // The farthest below, so that the nearest is visited first.
-                            let at = stack[start..].iter().position(|(_, d)| *d < distance);
-                            stack
-                                .insert(at.map_or(stack.len(), |at| start + at), (child, distance));
-                        }
-                    }
+                    stack.push_nearest_last(&node.children, &search.enter(node));
                 } else {
                     search.test(&self.leaves[(place & !LEAF) as usize], triangles, &of);
                     if any_will_do && search.index != NO_CHILD {
@@ -211,7 +217,63 @@ impl Tree {
             }
             next = stack.pop();
         }
-        (search.index != NO_CHILD).then_some((search.index as usize, search.closest))
+        let hit = (search.index as usize, search.closest);
+        (search.index != NO_CHILD).then_some((hit, search.is_front))
+    }
+}
+
+/// Children that are still to be visited, and how far away their boxes begin.
+struct Stack {
+    /// On the processor's stack, because to ask for memory takes as long as to enter some nodes.
+    first: [(u32, f32); ORDINARY_STACK],
+    count: usize,
+    more: Vec<(u32, f32)>,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Self { first: [(NO_CHILD, 0.0); ORDINARY_STACK], count: 0, more: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, child: (u32, f32)) {
+        if let Some(place) = self.first.get_mut(self.count) {
+            *place = child;
+            self.count += 1;
+        } else {
+            self.more.push(child);
+        }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<(u32, f32)> {
+        if !self.more.is_empty() {
+            return self.more.pop();
+        }
+        self.count = self.count.checked_sub(1)?;
+        Some(self.first[self.count])
+    }
+
+    /// Adds those of a node's `children` whose `distances` are finite.
+    #[inline(always)]
+    fn push_nearest_last(&mut self, children: &[u32; WIDTH], distances: &Boxes) {
+        let mut entered = [(NO_CHILD, 0.0); WIDTH];
+        let mut count = 0;
+        // Without a branch, since no processor foresees which boxes are entered.
+        for (child, distance) in children.iter().zip(distances) {
+            entered[count] = (*child, *distance);
+            count += usize::from(*distance < f32::INFINITY);
+        }
+        for end in 1..count {
+            let mut place = end;
+            while place > 0 && entered[place - 1].1 < entered[place].1 {
+                entered.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+        for child in &entered[..count] {
+            self.push(*child);
+        }
     }
 }
 
@@ -258,6 +320,12 @@ impl Search {
                 seen[2][lane] = shear.z * depth;
             }
         }
+        // Here, not where a triangle is met, so that all of the leaf is waited for at once.
+        let mut cosines = [0.0; IN_LEAF];
+        for lane in 0..IN_LEAF {
+            let normal = Vec3::from_array(leaf.normals.map(|axis| axis[lane]));
+            cosines[lane] = self.sheared.cosine(normal);
+        }
         let [a, b, c] = &seen;
         let mut may_be_met = [false; IN_LEAF];
         for lane in 0..IN_LEAF {
@@ -278,12 +346,11 @@ impl Search {
             };
             let index = leaf.indices[lane];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
-            // The triangle itself is far away in memory, so it is asked last.
             if (t < self.closest || is_tie)
-                && self.sheared.reaches(|| &triangles[index as usize], t)
+                && self.sheared.reaches(cosines[lane], t)
                 && of(&triangles[index as usize], t)
             {
-                (self.closest, self.index) = (t, index);
+                (self.closest, self.index, self.is_front) = (t, index, cosines[lane] <= 0.0);
             }
         }
     }
@@ -291,39 +358,129 @@ impl Search {
 
 impl Leaf {
     fn new(triangles: &[Triangle], items: &[Item]) -> Self {
-        let mut leaf = Self { corners: [[[0.0; IN_LEAF]; 3]; 3], indices: [0; IN_LEAF] };
-        for lane in 0..IN_LEAF {
-            let index = items.get(lane).unwrap_or(&items[0]).index;
-            leaf.indices[lane] = index;
-            for (corner, vertex) in leaf.corners.iter_mut().zip(triangles[index as usize].vertices)
-            {
-                for (axis, coordinate) in corner.iter_mut().zip(vertex.to_array()) {
-                    axis[lane] = coordinate;
-                }
-            }
+        let indices = std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).index);
+        let four = indices.map(|index: u32| &triangles[index as usize]);
+        let by_axis = |vectors: [Vec3; IN_LEAF]| [0, 1, 2].map(|axis| vectors.map(|v| v[axis]));
+        Self {
+            corners: [0, 1, 2]
+                .map(|corner| by_axis(four.map(|triangle| triangle.vertices[corner]))),
+            normals: by_axis(four.map(|triangle| triangle.normal)),
+            indices,
         }
-        leaf
     }
 }
 
-/// Divides `items` where the surface area heuristic finds it cheapest; what fits a leaf stays whole.
-fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
-    if items.len() <= IN_LEAF {
-        return items.split_at_mut(items.len());
+/// The triangles halved until all parts fit a leaf: what nodes are then made of, so that a ray enters as few as can be.
+/// To halve three times for every node would leave half of the boxes empty. (Ylitie, Karras and Laine,
+/// *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017.)
+#[derive(Default)]
+struct Halving<'items> {
+    halved: Vec<Halved<'items>>,
+}
+
+#[derive(Clone, Copy)]
+enum Part<'items> {
+    Leaf(&'items [Item]),
+    /// Its place in [`Halving::halved`].
+    Halved(u32),
+}
+
+struct Halved<'items> {
+    bounds: Bounds,
+    halves: [Part<'items>; 2],
+    /// At `n - 1`, how many nodes are entered in this part if it becomes at most `n` boxes of the node above it: the
+    /// sum of the areas of all those nodes, to which the numbers of rays are proportional.
+    nodes: [f32; WIDTH],
+}
+
+impl<'items> Halving<'items> {
+    fn add(&mut self, items: &'items mut [Item]) -> Part<'items> {
+        if items.len() <= IN_LEAF {
+            return Part::Leaf(items);
+        }
+        let (left, right) = split(items);
+        let halves = [self.add(left), self.add(right)];
+        let [left, right] = halves.map(|half| self.bounds(half));
+        let bounds = left.and(right);
+        let nodes = self.nodes_of(bounds, halves);
+        self.halved.push(Halved { bounds, halves, nodes });
+        Part::Halved((self.halved.len() - 1) as u32)
     }
+
+    fn bounds(&self, part: Part) -> Bounds {
+        match part {
+            Part::Leaf(items) => items.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds)),
+            Part::Halved(place) => self.halved[place as usize].bounds,
+        }
+    }
+
+    fn nodes(&self, part: Part) -> [f32; WIDTH] {
+        match part {
+            Part::Leaf(_) => [0.0; WIDTH],
+            Part::Halved(place) => self.halved[place as usize].nodes,
+        }
+    }
+
+    fn nodes_of(&self, bounds: Bounds, halves: [Part; 2]) -> [f32; WIDTH] {
+        let [left, right] = halves.map(|half| self.nodes(half));
+        let mut nodes = [bounds.half_area() + best_share(&left, &right, WIDTH).0; WIDTH];
+        for boxes in 2..=WIDTH {
+            nodes[boxes - 1] = nodes[boxes - 2].min(best_share(&left, &right, boxes).0);
+        }
+        nodes
+    }
+
+    /// The parts that become the boxes of `part`'s node.
+    fn boxes(&self, part: Part<'items>) -> Vec<Part<'items>> {
+        let mut boxes = Vec::with_capacity(WIDTH);
+        match part {
+            Part::Leaf(_) => boxes.push(part),
+            Part::Halved(place) => self.share(place, WIDTH, &mut boxes),
+        }
+        boxes
+    }
+
+    /// Adds what becomes of the halves of the part at `place` if there are `count` boxes for them.
+    fn share(&self, place: u32, count: usize, boxes: &mut Vec<Part<'items>>) {
+        let halves = self.halved[place as usize].halves;
+        let [left, right] = halves.map(|half| self.nodes(half));
+        let share = best_share(&left, &right, count).1;
+        for (half, count) in halves.into_iter().zip([share, count - share]) {
+            let nodes = self.nodes(half);
+            // Boxes without which it goes as well stay empty.
+            let of_use = nodes.iter().take_while(|fewer| **fewer > nodes[count - 1]).count() + 1;
+            match half {
+                Part::Halved(place) if of_use > 1 => self.share(place, of_use, boxes),
+                _ => boxes.push(half),
+            }
+        }
+    }
+}
+
+/// How many nodes are entered in two halves that share `boxes`, when the first has as many as are best, and how many
+/// these are.
+fn best_share(left: &[f32; WIDTH], right: &[f32; WIDTH], boxes: usize) -> (f32, usize) {
+    let shares = (1..boxes).map(|share| (left[share - 1] + right[boxes - share - 1], share));
+    shares.fold((f32::INFINITY, 1), |best, share| if share.0 < best.0 { share } else { best })
+}
+
+/// Divides `items`, which do not fit a leaf, where the surface area heuristic finds it cheapest.
+fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for item in &*items {
-        (low, high) = (low.min(item.center), high.max(item.center));
+        let center = item.bounds.center();
+        (low, high) = (low.min(center), high.max(center));
     }
     let extent = high - low;
     let scale = BINS as f32 * (1.0 - 1e-6) / extent;
-    let bin = |item: &Item, axis: usize| {
-        (((item.center[axis] - low[axis]) * scale[axis]) as usize).min(BINS - 1)
+    let bins_of = |item: &Item| {
+        let places = (item.bounds.center() - low) * scale;
+        places.to_array().map(|place| (place as i32 as usize).min(BINS - 1))
     };
     let mut bins = [[(0_usize, Bounds::EMPTY); BINS]; 3];
     for item in &*items {
-        for (axis, bins) in bins.iter_mut().enumerate() {
-            let (count, bounds) = &mut bins[bin(item, axis)];
+        for (bins, bin) in bins.iter_mut().zip(bins_of(item)) {
+            let (count, bounds) = &mut bins[bin];
             (*count, *bounds) = (*count + 1, bounds.and(item.bounds));
         }
     }
@@ -350,7 +507,7 @@ fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
     let middle = if cost < f32::INFINITY {
         let mut middle = 0;
         for place in 0..items.len() {
-            if bin(&items[place], axis) < cut {
+            if bins_of(&items[place])[axis] < cut {
                 items.swap(place, middle);
                 middle += 1;
             }

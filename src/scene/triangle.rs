@@ -59,6 +59,12 @@ impl ShearedRay {
         self.shear
     }
 
+    /// The cosine of the ray's direction to `normal`: not above 0 where the ray meets the side it points to.
+    #[inline(always)]
+    pub(crate) fn cosine(&self, normal: Vec3) -> f32 {
+        self.direction.dot(normal)
+    }
+
     /// The axes of the scene that become x, y and z for a ray in `direction`.
     #[inline(always)]
     pub(crate) fn axes(direction: Vec3) -> [usize; 3] {
@@ -72,13 +78,13 @@ impl ShearedRay {
         }
     }
 
-    /// Whether the ray meets `triangle` at the distance `t` by what is known of its start: see [`Ray::start_error`].
+    /// Whether the ray meets a triangle at the distance `t` by what is known of its start: see [`Ray::start_error`].
+    /// The [`Self::cosine`] is that of the triangle's normal.
     #[inline(always)]
-    pub(crate) fn reaches<'a>(&self, triangle: impl FnOnce() -> &'a Triangle, t: f32) -> bool {
+    pub(crate) fn reaches(&self, cosine: f32, t: f32) -> bool {
         if self.start_error == 0.0 {
             return t > 0.0;
         }
-        let cosine = self.direction.dot(triangle().normal);
         if cosine <= 0.0 { t > -self.start_error } else { t * cosine > self.start_error }
     }
 
@@ -122,7 +128,7 @@ impl Triangle {
     /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
     pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
         let t = meet(self.vertices.map(|vertex| ray.see(vertex)))?;
-        ray.reaches(|| self, t).then_some(t)
+        ray.reaches(ray.cosine(self.normal), t).then_some(t)
     }
 
     /// Whether the two have a corner in common, or `other` lies in this one's plane, no farther than `rounding`.
