@@ -17,6 +17,7 @@ const EFFORT: Effort = Effort {
     fair: 12_000_000,
     misreading: 4_000_000,
     slow_misreading: 4_000_000,
+    pair: 4_000_000,
 };
 
 fn main() {

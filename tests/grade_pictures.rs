@@ -355,16 +355,25 @@ fn two_misreadings_at_once_are_not_one() {
             assert_eq!(named(&judgement), None, "{at}: {judgement:?}");
         }
     }
-    // What hides behind a misreading shows in the number alone.
-    let of_number = |variation| {
-        let judgement = judge(&simulate(variation, 91, MILLION, 0.0), None);
+    // Where no other pair does as well, both are told.
+    let both = Variation { hemisphere: Hemisphere::NoSquareRoot, ..roulette(Roulette::Mean) };
+    let judgement = judge(&simulate(both, 90, MILLION, 0.0), Some(MILLION));
+    let advice =
+        judgement.findings.iter().find(|finding| finding.is_fault()).unwrap().advice.clone();
+    assert!(advice.contains("r is u1") && advice.contains("the mean of"), "{advice}");
+}
+
+#[test]
+fn what_hides_behind_a_misreading_shows_in_the_number() {
+    let of_number = |emitted| {
+        let variation = Variation { roulette: Roulette::Red, ..Variation::default() };
+        let judgement = judge(&simulate(variation, 91, emitted, 0.0), None);
         assert_eq!(named(&judgement), Some("red-roulette"), "{judgement:?}");
         let finding = judgement.findings.iter().find(|finding| finding.check == "photons sent out");
         finding.expect("the number is told").passed
     };
-    assert!(of_number(roulette(Roulette::Red)));
-    let hemisphere = Hemisphere::NoSquareRoot;
-    assert!(!of_number(Variation { hemisphere, ..roulette(Roulette::Red) }));
+    assert!(of_number(MILLION));
+    assert!(!of_number(MILLION * 7 / 10));
 }
 
 #[test]

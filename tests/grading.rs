@@ -277,8 +277,12 @@ fn what_no_misreading_explains_gets_no_name() {
 fn two_misreadings_at_once_are_told_and_not_named() {
     let pairs = pairs();
     for pair in pairs.iter().step_by(9) {
-        let judgement =
-            judge(&positions_of(&records(pair.variation, 83, EMITTED)), None, false, &EXPECTATIONS);
+        let judgement = judge(
+            &positions_of(&records(pair.variation, 83, EMITTED)),
+            Some(EMITTED as f64),
+            true,
+            &EXPECTATIONS,
+        );
         assert!(is_incorrect(&judgement), "{}", pair.title);
         assert_eq!(name(&judgement), None, "{}", pair.title);
         let told = judgement.pair.as_ref().expect(&pair.title);

@@ -150,7 +150,7 @@ pub fn judge(
         trial.p_value >= SIGNIFICANCE && is_ruled_out(observation, trial.emitted, expectations);
     let of_columns = remarks(observation, emitted.filter(|_| emitted_by_user), is_ruled_out);
     let is_told = of_columns.iter().chain(&findings).any(Finding::is_fault);
-    if is_off && explanation.is_none() && !is_told {
+    if is_off && explanation.is_none() && pair.is_none() && !is_told {
         findings.extend(shows_direct(observation, expectations));
     }
     let shows_plainly = findings.iter().any(Finding::is_fault);
@@ -290,8 +290,11 @@ fn attempt(
 
     let on_the_way = |is_wanted: fn(&Hypothesis) -> bool| {
         let hypotheses = expectations.misreadings.iter().zip(&expectations.signatures.misreadings);
+        if !has_cells {
+            return (0.0, 1.0);
+        }
         let deviations: Vec<f64> = hypotheses
-            .filter(|(hypothesis, _)| has_cells && is_wanted(hypothesis))
+            .filter(|(hypothesis, _)| is_wanted(hypothesis))
             .map(|(_, other)| {
                 let other = grouped(&other.cells, &groups, count);
                 towards(&counts_of_groups, &law_of_groups, &other, emitted)

@@ -64,7 +64,11 @@ impl Explanation {
     }
 
     fn is_same_misreading(&self, other: &Self) -> bool {
-        self.hypothesis.id == other.hypothesis.id && !self.is_pair()
+        let [one, other] = [&self.hypothesis, &other.hypothesis];
+        // With t and b as they are written, a title is longer.
+        let is_same_pair =
+            one.title.starts_with(&other.title) || other.title.starts_with(&one.title);
+        one.id == other.id && (!self.is_pair() || is_same_pair)
     }
 }
 

@@ -65,6 +65,8 @@ pub struct Effort {
     pub misreading: u64,
     /// For each other misreading.
     pub slow_misreading: u64,
+    /// For two misreadings at once.
+    pub pair: u64,
 }
 
 impl Effort {
@@ -74,10 +76,16 @@ impl Effort {
         fair: 30_000_000,
         misreading: 4_000_000,
         slow_misreading: 4_000_000,
+        pair: 4_000_000,
     };
     /// For a limit of bounces of a course's own, in a few seconds.
-    pub const QUICK: Self =
-        Self { main: 8_000_000, fair: 2_000_000, misreading: 1_000_000, slow_misreading: 200_000 };
+    pub const QUICK: Self = Self {
+        main: 8_000_000,
+        fair: 2_000_000,
+        misreading: 500_000,
+        slow_misreading: 200_000,
+        pair: 60_000,
+    };
 }
 
 impl Signatures {
@@ -105,8 +113,9 @@ impl Signatures {
             let emitted = if is_fast { effort.misreading } else { effort.slow_misreading };
             measure(hypothesis, places, emitted, max_bounces).0
         };
-        let misreadings = misreadings().iter().map(of_misreading).collect();
-        let pairs = pairs().iter().map(of_misreading).collect();
+        let misreadings = misreadings().par_iter().map(of_misreading).collect();
+        let of_pair = |pair: &Hypothesis| measure(pair, places, effort.pair, max_bounces).0;
+        let pairs = pairs().par_iter().map(of_pair).collect();
         Self { max_bounces, fair, misreadings, pairs, correlation }
     }
 }

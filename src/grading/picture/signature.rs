@@ -73,7 +73,7 @@ impl PictureSignatures {
             max_bounces,
             fair,
             misreadings: measure_all(known_misreadings(places), effort.misreading),
-            pairs: measure_all(known_pairs(places), effort.slow_misreading),
+            pairs: measure_all(known_pairs(places), effort.pair),
         }
     }
 }
