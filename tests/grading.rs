@@ -294,6 +294,23 @@ fn two_misreadings_at_once_are_told_and_not_named() {
 }
 
 #[test]
+fn nearly_all_pairs_are_told_by_their_cells() {
+    // By facets alone, nine of them are not.
+    let mut others = Vec::new();
+    for pair in pairs() {
+        let observation = positions_of(&records(pair.variation, 95, EMITTED));
+        let judgement = judge(&observation, None, false, &EXPECTATIONS);
+        assert_eq!(name(&judgement), None, "{}", pair.title);
+        let told = judgement.pair.map(|told| told.hypothesis.title).unwrap_or_default();
+        // With t and b as they are written or not: one title is longer.
+        if told.is_empty() || !(told.starts_with(&pair.title) || pair.title.starts_with(&told)) {
+            others.push(pair.title);
+        }
+    }
+    assert!(others.len() <= 4, "{others:#?}");
+}
+
+#[test]
 fn a_frame_left_at_zero_sends_photons_along_the_normal() {
     let variation = |zero_frame| {
         let reading = Reading { fallback_threshold: 2.0, ..Reading::REFERENCE };
@@ -342,6 +359,32 @@ fn a_bounce_too_few_is_seen_in_the_number_of_photons() {
     assert!(!of_bounces(&short));
     let right = judged(0, emitted);
     assert!(!is_incorrect(&right) && of_bounces(&right));
+}
+
+#[test]
+fn positions_hardly_show_whether_three_bounces_or_two_were_allowed() {
+    let plain = fair_readings().swap_remove(0);
+    let short = Hypothesis {
+        variation: Variation { fewer_bounces: 1, ..plain.variation },
+        ..plain.clone()
+    };
+    let (of_three, covariance) = measure(&plain, &PLACES, 16_000_000, 3);
+    let (of_two, _) = measure(&short, &PLACES, 16_000_000, 3);
+    let cells = of_three.cells.len();
+    // To a test that knows both laws, and nothing else that a fair reading may do.
+    let law = Law {
+        mean: of_three.cells,
+        covariance,
+        measured_with: f64::INFINITY,
+        leeway: vec![0.0; cells],
+    };
+    let emitted = EMITTED as f64;
+    let counts: Vec<f64> = of_two.cells.iter().map(|mean| emitted * mean).collect();
+    let [known, unknown] =
+        [Some(emitted), None].map(|number| towards(&counts, &law, &of_two.cells, number));
+    println!("{known:.2} standard deviations apart, {unknown:.2} where the number is not known");
+    assert!((5.0..6.0).contains(&known), "{known}");
+    assert!((2.0..3.2).contains(&unknown), "{unknown}");
 }
 
 #[test]
@@ -629,6 +672,15 @@ fn photons_straight_from_the_light_are_seen_by_their_direction() {
     let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
     let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
     assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
+    // Where all are stored, that is the name, alone or with another one.
+    let direct = Variation { direct_stored: true, ..Variation::default() };
+    let judged = |variation| {
+        let all = observed(records(variation, 87, EMITTED), columns);
+        judge(&all, None, false, &EXPECTATIONS)
+    };
+    assert_eq!(name(&judged(direct)), Some("direct-stored"));
+    let pair = judged(Variation { roulette: Roulette::Mean, ..direct }).pair.expect("two at once");
+    assert!(pair.hypothesis.variation.direct_stored, "{}", pair.hypothesis.title);
 }
 
 #[test]

@@ -14,7 +14,8 @@
 //! tenth of what a class could bear: at small counts the tails of these tests are a little heavier than
 //! the normal law's. Means have a leeway of about half a part in a hundred, since where a ray starts, and how
 //! far off its surface a position is stored, are nobody's fault; it matters only beyond a million photons.
-//! A misreading is named when its own counts agree with the submission's and no other's do as well.
+//! A misreading is named when its own counts agree with the submission's, by facet and by cell, and neither another's
+//! do as well nor those of two at once ([`pairs`]), which are told without a name.
 //! `golden/grading.md` has what all of this achieves.
 
 pub mod axes;
