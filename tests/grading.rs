@@ -311,6 +311,25 @@ fn nearly_all_pairs_are_told_by_their_cells() {
 }
 
 #[test]
+fn photons_lost_all_over_the_scene_are_no_misreading() {
+    // As many fewer as with the luminance, which shows little else.
+    let mut incorrect = 0;
+    for seed in 880..890 {
+        let mut few = records(Variation::default(), seed, EMITTED);
+        let mut at = 0;
+        few.retain(|_| {
+            at += 1;
+            at % 9 != 0
+        });
+        let judgement = judge(&positions_of(&few), Some(EMITTED as f64), true, &EXPECTATIONS);
+        incorrect += usize::from(is_incorrect(&judgement));
+        assert_eq!(name(&judgement), None, "{seed}");
+        assert!(judgement.pair.is_none(), "{seed}");
+    }
+    assert!(incorrect >= 5, "{incorrect}");
+}
+
+#[test]
 fn a_frame_left_at_zero_sends_photons_along_the_normal() {
     let variation = |zero_frame| {
         let reading = Reading { fallback_threshold: 2.0, ..Reading::REFERENCE };

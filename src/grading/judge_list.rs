@@ -104,6 +104,7 @@ pub fn judge(
 ) -> Judgement {
     let places = &expectations.places;
     let known = Known {
+        fair: &expectations.fair,
         misreadings: &expectations.misreadings,
         pairs: &expectations.pairs,
         signatures: &expectations.signatures,

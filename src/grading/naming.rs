@@ -35,7 +35,8 @@ const MOST_FIRST_HITS: f64 = 0.5;
 /// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
 const LEEWAY_OF_LOSS: f64 = 0.12;
 
-/// The logarithm of how much rarer two misreadings at once are than one of them.
+/// The logarithm of how much rarer two misreadings at once are than one of them, and photons that are right but for their
+/// number.
 const RARER: f64 = -6.0;
 
 /// A misreading that explains a submission, or two at once.
@@ -52,7 +53,7 @@ pub struct Explanation {
 impl Explanation {
     /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with all others'.
     pub(super) fn new(hypothesis: &Hypothesis, mut fit: Fit) -> Self {
-        if hypothesis.id == PAIR {
+        if hypothesis.misreading.is_none() {
             fit.log_likelihood += RARER;
         }
         Self { hypothesis: hypothesis.clone(), fit, confidence: 0.0 }
@@ -75,6 +76,8 @@ impl Explanation {
 /// What is known of the misreadings.
 #[derive(Clone, Copy, Debug)]
 pub struct Known<'a> {
+    /// The fair readings.
+    pub fair: &'a [Hypothesis],
     /// The misreadings.
     pub misreadings: &'a [Hypothesis],
     /// Two of them at once.
@@ -119,7 +122,7 @@ pub fn explain(
     };
     let comparison = Comparison::new(observation, emitted, places, known.signatures);
     let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
-    let candidates: Vec<Explanation> = (known.misreadings.iter().chain(known.pairs))
+    let mut candidates: Vec<Explanation> = (known.misreadings.iter().chain(known.pairs))
         .zip(signatures)
         .filter(|(hypothesis, _)| is_possible(hypothesis))
         .filter(|(hypothesis, _)| hypothesis.id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces))
@@ -130,6 +133,16 @@ pub fn explain(
         let fit = explain_by_self_hits(observation, emitted, places, known)?;
         let hypothesis = no_offset([0.0; FACETS]);
         return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
+    }
+    if emitted.is_some() && of_nan == 0.0 {
+        // Photons lost or stored twice all over the scene are no misreading.
+        let of_any_number = Comparison { emitted: None, ..comparison };
+        let fair = known.fair.iter().zip(&known.signatures.fair);
+        candidates.extend(
+            fair.map(|(reading, signature)| {
+                Explanation::new(reading, of_any_number.fit(signature))
+            }),
+        );
     }
     most_likely(candidates)
 }
@@ -272,5 +285,6 @@ pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanatio
         }
     }
     let confidence = 1.0 / sum;
-    (confidence > 0.95).then_some(Explanation { confidence, ..best })
+    let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
+    (confidence > 0.95 && !is_fair).then_some(Explanation { confidence, ..best })
 }

@@ -381,26 +381,7 @@ impl Case<'_> {
 
     /// The misreading that explains the picture, or two at once, if no other does as well.
     fn explain(&self, trial: &Trial) -> Option<Explanation> {
-        let (groups, count) = (&trial.groups.0, trial.groups.1);
-        let counts = grouped(self.counts, groups, count);
-        let at_rest = vec![1.0; self.view.facets.len()];
-        let hold_against = |hypothesis: &Hypothesis, signature: &PictureSignature| {
-            let size = self.emitted.unwrap_or_else(|| self.fit_size(signature, &at_rest));
-            let expected = Expected::new(self.view, signature, size, &at_rest);
-            let mut law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
-            if hypothesis.id == "no-offset" {
-                for facet in 0..self.view.facets.len() {
-                    let way = self.slope_of_facet(&expected, facet);
-                    let way = grouped(&way, groups, count);
-                    loosen(&mut law, &way, LEEWAY_OF_SELF_HITS);
-                }
-            }
-            let mut fit = fit(&counts, &law, Some(1.0));
-            fit.degrees -= usize::from(self.emitted.is_none());
-            fit.p_value = chi_squared_tail(fit.distance, fit.degrees);
-            fit.emitted = size;
-            Explanation::new(hypothesis, fit)
-        };
+        let groups = (trial.groups.0.as_slice(), trial.groups.1);
         let signatures = &self.expectations.signatures;
         let known = self.expectations.misreadings.iter().chain(&self.expectations.pairs);
         let signatures = signatures.misreadings.iter().chain(&signatures.pairs);
@@ -409,9 +390,41 @@ impl Case<'_> {
         let candidates = known
             .zip(signatures)
             .filter(|(hypothesis, _)| can_be_seen(hypothesis.id))
-            .map(|(hypothesis, signature)| hold_against(hypothesis, signature));
-        most_likely(candidates.collect())
+            .map(|(hypothesis, signature)| self.hold_against(hypothesis, signature, groups));
+        // Dots lost all over the scene are no misreading.
+        let of_any_number = Self { emitted: None, ..*self };
+        let fair = self.expectations.fair.iter().zip(&self.expectations.signatures.fair);
+        let fair = fair
+            .filter(|_| self.emitted.is_some())
+            .map(|(reading, signature)| of_any_number.hold_against(reading, signature, groups));
+        most_likely(candidates.chain(fair).collect())
             .filter(|it| it.hypothesis.id == "no-offset" || it.fit.p_value >= LEAST_LIKELY)
+    }
+
+    /// How well `hypothesis` explains the picture, whose cells are joined into `groups`, so many of them.
+    fn hold_against(
+        &self,
+        hypothesis: &Hypothesis,
+        signature: &PictureSignature,
+        (groups, count): (&[usize], usize),
+    ) -> Explanation {
+        let counts = grouped(self.counts, groups, count);
+        let at_rest = vec![1.0; self.view.facets.len()];
+        let size = self.emitted.unwrap_or_else(|| self.fit_size(signature, &at_rest));
+        let expected = Expected::new(self.view, signature, size, &at_rest);
+        let mut law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
+        if hypothesis.id == "no-offset" {
+            for facet in 0..self.view.facets.len() {
+                let way = self.slope_of_facet(&expected, facet);
+                let way = grouped(&way, groups, count);
+                loosen(&mut law, &way, LEEWAY_OF_SELF_HITS);
+            }
+        }
+        let mut fit = fit(&counts, &law, Some(1.0));
+        fit.degrees -= usize::from(self.emitted.is_none());
+        fit.p_value = chi_squared_tail(fit.distance, fit.degrees);
+        fit.emitted = size;
+        Explanation::new(hypothesis, fit)
     }
 }
 
