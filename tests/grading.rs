@@ -311,6 +311,25 @@ fn nearly_all_pairs_are_told_by_their_cells() {
 }
 
 #[test]
+fn other_faults_speak_for_no_misreading() {
+    for seed in 900..910 {
+        let mut some_twice = records(Variation::default(), seed, EMITTED);
+        some_twice.extend_from_within(..60);
+        let mut some_astray = records(Variation::default(), seed, EMITTED);
+        some_astray.iter_mut().step_by(50).for_each(|record| record.position.y += 0.03);
+        for (records, check) in [(some_twice, "same place"), (some_astray, "on surfaces")] {
+            for emitted in [None, Some(EMITTED as f64)] {
+                let judgement = judge(&positions_of(&records), emitted, true, &EXPECTATIONS);
+                let is_seen = |finding: &Finding| finding.is_fault() && finding.check == check;
+                assert!(judgement.findings.iter().any(is_seen), "{seed} {check}");
+                assert_eq!(name(&judgement), None, "{seed} {check}");
+                assert!(judgement.pair.is_none(), "{seed} {check}");
+            }
+        }
+    }
+}
+
+#[test]
 fn photons_lost_all_over_the_scene_are_no_misreading() {
     // As many fewer as with the luminance, which shows little else.
     let mut incorrect = 0;

@@ -85,6 +85,9 @@ impl Expectations {
 /// that lost as many photons by chance is as likely.
 const LEAST_LIKELY_SLIP: f64 = 0.02;
 
+/// Of the records, at least this part lies on surfaces where their number is held against the intensity.
+const MOSTLY: f64 = 0.5;
+
 /// The tests of a list against one fair reading.
 struct Trial {
     reading: usize,
@@ -115,9 +118,24 @@ pub fn judge(
     let of_bounces = bounce_findings(observation, emitted, signature, expectations);
     let is_off =
         trial.p_value < SIGNIFICANCE || findings.iter().chain(&of_bounces).any(Finding::is_fault);
-    let (mut explanation, mut pair) =
-        alone_or_pair(is_off.then(|| explain(observation, emitted, places, known)).flatten());
-    let by_intensity = emitted.filter(|_| !emitted_by_user);
+    let shows = |check: &str| {
+        findings.iter().chain(&of_bounces).any(|fault| fault.is_fault() && fault.check == check)
+    };
+    // What else is wrong with a list speaks for no misreading, unless it comes of that one.
+    let is_shown = |explanation: &Explanation| {
+        trial.p_value < SIGNIFICANCE
+            || match explanation.hypothesis.id {
+                "nan-frame" => shows("finite"),
+                "no-offset" => shows("same place"),
+                BOUNCE_OFF_BY_ONE => shows("last bounce"),
+                _ => false,
+            }
+    };
+    let explained = is_off.then(|| explain(observation, emitted, places, known)).flatten();
+    let (mut explanation, mut pair) = alone_or_pair(explained.filter(is_shown));
+    // Of photons that mostly lie elsewhere, the others say nothing of the number.
+    let is_told_by_places = observation.counts.on_surfaces() > MOSTLY * observation.records as f64;
+    let by_intensity = emitted.filter(|_| !emitted_by_user && is_told_by_places);
     let is_explained = explanation.is_some() || pair.is_some();
     if let (Some(number), false, true) = (by_intensity, is_explained, trial.p_value < SIGNIFICANCE)
     {

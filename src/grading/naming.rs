@@ -134,8 +134,8 @@ pub fn explain(
         let hypothesis = no_offset([0.0; FACETS]);
         return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
     }
-    if emitted.is_some() && of_nan == 0.0 && !is_short {
-        // Photons lost or stored twice all over the scene are no misreading.
+    if of_nan == 0.0 && !is_short {
+        // Photons lost or stored twice all over the scene are no misreading, and neither is what only resembles one.
         let of_any_number = Comparison { emitted: None, ..comparison };
         let fair = known.fair.iter().zip(&known.signatures.fair);
         candidates.extend(

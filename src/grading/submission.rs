@@ -144,6 +144,7 @@ fn grade_picture(
         verdict,
         misreading: misreading_id,
         misreading_confidence: misreading.map(|explanation| explanation.confidence),
+        misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
     };
     Graded { grade, list: None }
@@ -207,6 +208,7 @@ pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) ->
         verdict: Verdict::Unreadable,
         misreading: None,
         misreading_confidence: None,
+        misreading_title: None,
         findings: vec![not_readable(reason)],
     };
     Graded { grade, list: None }
@@ -271,6 +273,7 @@ fn grade_list(
         verdict,
         misreading: misreading_id,
         misreading_confidence: misreading.map(|explanation| explanation.confidence),
+        misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
     };
     Graded { grade, list: Some((list, judgement)) }
@@ -297,6 +300,7 @@ fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
         verdict: Verdict::NoDots,
         misreading: None,
         misreading_confidence: None,
+        misreading_title: None,
         findings: vec![finding],
     };
     Graded { grade, list: None }

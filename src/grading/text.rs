@@ -47,7 +47,9 @@ pub fn heading(grade: &Grade, best: f64) -> String {
     }
     if let Some(misreading) = grade.misreading {
         let confidence = grade.misreading_confidence.unwrap_or_default();
-        text += &format!("  misreading: {misreading} ({:.1} % sure)\n", 100.0 * confidence);
+        let title = grade.misreading_title.as_deref().unwrap_or_default();
+        let sure = 100.0 * confidence;
+        text += &format!("  misreading: {misreading} ({sure:.1} % sure): {title}\n");
     } else if grade.verdict == Verdict::Incorrect {
         text += "  misreading: none of the known ones explains it alone\n";
     }

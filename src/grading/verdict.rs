@@ -69,6 +69,9 @@ pub struct Grade {
     pub misreading: Option<&'static str>,
     /// How sure that is, among the known ones.
     pub misreading_confidence: Option<f64>,
+    /// What that is, in words.
+    #[serde(skip)]
+    pub misreading_title: Option<String>,
     /// In the order in which they are to be read.
     pub findings: Vec<Finding>,
 }

@@ -96,7 +96,7 @@ impl<'a> Pages<'a> {
                 div.misreading {
                     p {
                         "This is what comes of the misreading " strong { (misreading) }
-                        @if let Some(explanation) = explanation { ": " (explanation.hypothesis.title) }
+                        @if let Some(title) = &grade.misreading_title { ": " (title) }
                         "."
                     }
                     @if let Some(advice) = explanation.and_then(|e| e.hypothesis.misreading) {
