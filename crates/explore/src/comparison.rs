@@ -1,0 +1,282 @@
+//! Another list, laid over the run's: a submission, or what a misreading stores.
+
+use std::collections::BTreeSet;
+
+use glam::Vec3;
+use photon_mapping::compare::alignment::{Pairing, align, with_bounces};
+use photon_mapping::compare::position_index::is_near;
+use photon_mapping::compare::report::{Outcome, Report, compare, scene_size};
+use photon_mapping::compare::section::Section;
+use photon_mapping::explain::{Story, explain, vector};
+use photon_mapping::photon_list::reader::PhotonList;
+use photon_mapping::photon_list::record::PhotonRecord;
+use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use serde_json::{Value, json};
+
+/// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
+/// default of `compare`.
+const TOLERANCE: f32 = 1e-4;
+/// A page shows at most so many records that only the other list has, evenly thinned.
+const MOST_EXTRA: usize = 500_000;
+
+/// What the other list is.
+#[derive(Clone, Debug)]
+pub enum Other {
+    /// A submission, by the name of its file.
+    Submission(String),
+    /// A misreading of the table.
+    Misreading {
+        /// Its name.
+        id: String,
+        /// What it does.
+        title: String,
+        /// The section of the handout that it misreads.
+        section: Section,
+        /// What to look at in the code.
+        advice: String,
+    },
+}
+
+/// A list held against the run's.
+#[derive(Debug)]
+pub struct Comparison {
+    other: Other,
+    report: Report,
+    pairings: Vec<Pairing>,
+    reference: PhotonList,
+    submission: PhotonList,
+    tolerance: f32,
+    step: Option<Step>,
+}
+
+/// The step of a photon at which the lists part.
+#[derive(Debug)]
+struct Step {
+    photon: u64,
+    bounce: usize,
+    name: &'static str,
+    /// Label, the reference's value, the other list's.
+    sides: Vec<[String; 3]>,
+}
+
+/// The overlay as the page's columns.
+#[derive(Debug, Default)]
+pub(crate) struct Overlay {
+    /// For each stored photon of the page: 0 matched, 1 missing, 2 moved.
+    pub kinds: Vec<u8>,
+    /// For each record that moved: the stored photon that it should be, and where it is.
+    pub moved_index: Vec<u32>,
+    pub moved: Vec<[f32; 3]>,
+    /// The records that only the other list has, with the largest number for what it does not tell.
+    pub extra: Vec<[f32; 3]>,
+    pub extra_photon: Vec<u32>,
+    pub extra_bounce: Vec<u16>,
+    pub extra_surface: Vec<u16>,
+}
+
+impl Comparison {
+    /// Compares `submission` with `reference`, the list of `renderer`'s run.
+    pub fn new(
+        other: Other,
+        reference: PhotonList,
+        submission: PhotonList,
+        renderer: &PhotonMappingRenderer,
+    ) -> Self {
+        let scene = &renderer.stored_scene;
+        let tolerance = TOLERANCE * scene.frame().length_to_world(scene_size(scene));
+        let report = compare(&reference, &submission, Some(renderer), tolerance, 0.0);
+        let reference = with_bounces(&reference).into_owned();
+        let submission = with_bounces(&submission).into_owned();
+        let pairings = align(&reference, &submission, tolerance);
+        let mut comparison =
+            Self { other, report, pairings, reference, submission, tolerance, step: None };
+        comparison.step = comparison.find_step(renderer);
+        comparison
+    }
+
+    /// The name of the other list.
+    pub fn name(&self) -> &str {
+        match &self.other {
+            Other::Submission(name) => name,
+            Other::Misreading { id, .. } => id,
+        }
+    }
+
+    /// The photon at which the lists part first.
+    pub fn photon(&self) -> Option<u64> {
+        self.step.as_ref().map(|step| step.photon)
+    }
+
+    /// The bounce, and the name of the step, at which they part.
+    pub fn step(&self) -> Option<(usize, &'static str)> {
+        self.step.as_ref().map(|step| (step.bounce, step.name))
+    }
+
+    /// The section to which the difference belongs: of a misreading it is known.
+    pub fn section(&self) -> Option<Section> {
+        match &self.other {
+            Other::Misreading { section, .. } => Some(*section),
+            Other::Submission(_) => self.report.first_divergence.as_ref()?.section,
+        }
+    }
+
+    /// The photons of the records that only the other list has.
+    pub(crate) fn photons_of_extra(&self) -> BTreeSet<u64> {
+        if !self.submission.columns.photon {
+            return BTreeSet::new();
+        }
+        let photons = self.pairings.iter().filter_map(|pairing| match *pairing {
+            Pairing::Extra(j) => Some(u64::from(self.submission.records[j].photon)),
+            _ => None,
+        });
+        photons.collect()
+    }
+
+    fn find_step(&self, renderer: &PhotonMappingRenderer) -> Option<Step> {
+        let divergence = self.report.first_divergence.as_ref()?;
+        let photon = divergence.photon?;
+        let story = explain(renderer, photon)?;
+        let recorded = divergence.bounce.unwrap_or(1).min(story.hits.len());
+        // What went wrong happened at the hit before the record.
+        let before = recorded.saturating_sub(1);
+        let starts_elsewhere = divergence.reason.as_ref().is_some_and(|reason| reason.contains("start"));
+        let (bounce, name) = match self.section()? {
+            Section::PhotonEmission => (0, "emission"),
+            Section::PhotonStorage => (recorded.min(story.hits.len().saturating_sub(1)), "stored"),
+            Section::PhotonScatteringAbsorption => (before, "roulette"),
+            Section::HemisphereSampling => (before, "hemisphere"),
+            Section::HemisphereRayTransformation if starts_elsewhere => (before, "ray"),
+            Section::HemisphereRayTransformation => (before, "frame"),
+        };
+        let mut sides = vec![[
+            "what it does".to_owned(),
+            divergence.reference.clone(),
+            divergence.submission.clone(),
+        ]];
+        sides.extend(self.values(&story, recorded));
+        Some(Step { photon, bounce, name, sides })
+    }
+
+    /// Both lists' values of the record of bounce `bounce`.
+    fn values(&self, story: &Story, bounce: usize) -> Vec<[String; 3]> {
+        let is_it = |record: &PhotonRecord| {
+            u64::from(record.photon) == story.photon && usize::from(record.bounce) == bounce
+        };
+        let pairing = self.pairings.iter().find(|pairing| match **pairing {
+            Pairing::Both(i, _) | Pairing::Missing(i) => is_it(&self.reference.records[i]),
+            Pairing::Extra(j) => self.submission.columns.photon && is_it(&self.submission.records[j]),
+        });
+        let Some(pairing) = pairing else { return Vec::new() };
+        let (reference, submission) = match *pairing {
+            Pairing::Both(i, j) => (Some(i), Some(j)),
+            Pairing::Missing(i) => (Some(i), None),
+            Pairing::Extra(j) => (None, Some(j)),
+        };
+        let reference = reference.map(|i| &self.reference.records[i]);
+        let submission = submission.map(|j| &self.submission.records[j]);
+        let none = || "none".to_owned();
+        let tell = |value: Option<Vec3>| value.map_or_else(none, |value| vector(&value.to_array()));
+        let mut rows = vec![[
+            "position".to_owned(),
+            tell(reference.map(|record| record.position)),
+            tell(submission.map(|record| record.position)),
+        ]];
+        let before = bounce.checked_sub(1).and_then(|before| story.hits.get(before));
+        if let (Some(before), Some(submission)) = (before, submission) {
+            let way = (submission.position - before.point()).normalize();
+            let normal = Vec3::from_array(before.normal);
+            let angle = |direction: Vec3| format!("{:.1}°", direction.angle_between(normal).to_degrees());
+            let expected = before.direction.map(Vec3::from_array);
+            rows.push(["direction".to_owned(), tell(expected), tell(Some(way))]);
+            rows.push(["angle to n".to_owned(), expected.map_or_else(none, angle), angle(way)]);
+        }
+        rows
+    }
+
+    /// The overlay; `places` has the place of each record of the reference among the page's photons.
+    pub(crate) fn overlay(&self, places: &[Option<u32>]) -> Overlay {
+        let shown = places.iter().flatten().count();
+        let mut overlay = Overlay { kinds: vec![0; shown], ..Overlay::default() };
+        let extra = || self.pairings.iter().filter(|pairing| matches!(pairing, Pairing::Extra(_)));
+        let every = extra().count() / MOST_EXTRA + 1;
+        let mut number_of_extra = 0;
+        for pairing in &self.pairings {
+            match *pairing {
+                Pairing::Missing(i) => {
+                    if let Some(place) = places[i] {
+                        overlay.kinds[place as usize] = 1;
+                    }
+                }
+                Pairing::Both(i, j) => {
+                    let (a, b) = (&self.reference.records[i], &self.submission.records[j]);
+                    let Some(place) = places[i] else { continue };
+                    if !is_near(a.position, b.position, self.tolerance) {
+                        overlay.kinds[place as usize] = 2;
+                        if b.position.is_finite() {
+                            overlay.moved_index.push(place);
+                            overlay.moved.push(b.position.to_array());
+                        }
+                    }
+                }
+                Pairing::Extra(j) => {
+                    number_of_extra += 1;
+                    let record = &self.submission.records[j];
+                    if number_of_extra % every == 0 && record.position.is_finite() {
+                        overlay.extra.push(record.position.to_array());
+                        overlay.extra_photon.push(record.photon);
+                        overlay.extra_bounce.push(record.bounce);
+                        overlay.extra_surface.push(record.surface);
+                    }
+                }
+            }
+        }
+        overlay
+    }
+
+    /// What the page shows above the box.
+    pub(crate) fn meta(&self) -> Value {
+        let Report { outcome, differences, first_divergence, .. } = &self.report;
+        let name = self.name();
+        let same = match outcome {
+            Outcome::Identical => Some("identical"),
+            Outcome::WithinTolerance => Some("the same within the tolerance"),
+            Outcome::Different => None,
+        };
+        let verdict = match (same, self.section()) {
+            (Some(same), _) => format!("{name}: {same}"),
+            (None, Some(section)) => format!("{name}: {}", section.title()),
+            (None, None) => format!("{name}: different"),
+        };
+        let divergence = first_divergence.as_ref();
+        let found = divergence.and_then(|divergence| divergence.reason.clone()).unwrap_or_default();
+        let doubt = if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
+        let (kind, reason, advice) = match &self.other {
+            Other::Submission(_) if found.is_empty() => ("submission", String::new(), ""),
+            Other::Submission(_) => ("submission", sentence(&(found + doubt)), ""),
+            Other::Misreading { title, advice, .. } => ("misreading", sentence(title), advice.as_str()),
+        };
+        json!({
+            "kind": kind,
+            "verdict": verdict,
+            "reason": reason,
+            "advice": advice,
+            "report": self.report.text(),
+            "counts": {
+                "matched": differences.matched, "missing": differences.missing,
+                "moved": differences.moved, "extra": differences.extra,
+            },
+            "photon": self.step.as_ref().map(|step| step.photon),
+            "bounce": self.step.as_ref().map(|step| step.bounce),
+            "step": self.step.as_ref().map(|step| step.name),
+            "sides": self.step.as_ref().map(|step| &step.sides),
+        })
+    }
+}
+
+/// `clause` with a capital and a full stop.
+fn sentence(clause: &str) -> String {
+    let mut letters = clause.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    let stop = if clause.ends_with('.') { "" } else { "." };
+    first + letters.as_str() + stop
+}
