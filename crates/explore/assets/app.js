@@ -123,6 +123,10 @@ class Page {
     const of = (value) => new Float32Array(run.faces.flatMap((face) => face.triangles.flatMap(() => [0, 1, 2].flatMap(() => value(face)))));
     view.light = run.lights[0].position;
     view.dotSize = run.dotSize;
+    view.faces = run.faces.map(({ normal, triangles: [first] }) => ({ normal, at: first.slice(0, 3) }));
+    // What a submission stores may lie anywhere, also on no face.
+    this.faceOf = new Uint16Array(this.count).fill(run.faces.length);
+    for (let i = 0; i < run.stored; i++) this.faceOf[i] = run.sections.hit_face[run.firstHit[run.pathOf[i]] + run.bounceOf[i]];
     view.setLayer("surfaces", corners.length, [[new Float32Array(corners.flat()), 3], [of((face) => face.normal), 3], [of((face) => run.surfaces[face.surface].diffuse), 3]]);
     this.mouse = orbit(view, (x, y) => this.openDot(view.pick(x, y)), (x, y) => {
       const index = view.pick(x, y);
@@ -198,7 +202,7 @@ class Page {
     $("legend").replaceChildren(...legend.map(([look, name]) => make("li", {}, swatch(...look), ` ${name}`)));
     if (!view) return;
     view.dim = lit ? 0.15 : 1;
-    view.setDots(this.positions, looks);
+    view.setDots(this.positions, looks, this.faceOf);
     const { moved_index: moved } = run.sections;
     const lines = [];
     if (moved && mode === "kind") {
@@ -263,7 +267,8 @@ class Page {
     this.at = Math.min(Math.max(at, 0), this.steps.length - 1);
     const { bounce, name } = this.steps[this.at];
     this.link = `#photon=${this.photon}&bounce=${bounce}&step=${name}`;
-    try { history.replaceState(null, "", this.link); } catch { location.hash = this.link; }
+    // Browsers refuse more than a few changes of the address a second.
+    this.address ??= setTimeout(() => { this.address = null; history.replaceState(null, "", this.link); }, 120);
     this.showStep();
   }
 
@@ -334,10 +339,15 @@ class Page {
     $("names").replaceChildren(...steps.flatMap((other, i) => (other.bounce === step.bounce ? [chip(this.run.source.steps[other.name].short, i === at, () => this.go(i))] : [])));
   }
 
+  /** Whether the lists part at `step`. */
+  isDivergence(step) {
+    const { comparison } = this.run;
+    return comparison !== null && comparison.photon === this.photon && comparison.bounce === step.bounce && comparison.step === step.name;
+  }
+
   /** Both lists' values side by side, at the step where they part. */
   showSides(step) {
-    const { comparison } = this.run;
-    const isHere = comparison && comparison.photon === this.photon && comparison.bounce === step.bounce && comparison.step === step.name;
+    const { comparison } = this.run, isHere = this.isDivergence(step);
     $("sides").hidden = !isHere;
     if (!isHere) return;
     const row = (tag, cells) => make("tr", {}, ...cells.map((words) => make(tag, { textContent: words })));
@@ -356,16 +366,19 @@ class Page {
       lines.push({ a: end, b: add(end, way, run.size * 0.4), color: "path", width: reached >= hits.length ? 3 : 1.5, dash: reached >= hits.length ? 0 : 7, alpha: 0.8 });
     }
     if (step.name === "emission") lines.push({ a: light.position, b: add(light.position, story.direction, run.size * 0.2), color: "path", width: 3.5 });
+    const { comparison } = run;
+    if (comparison?.other && this.isDivergence(step)) lines.push({ a: points[step.bounce + (step.name === "emission" || step.name === "stored" ? 0 : 1)], b: comparison.other, color: "extra", width: 3, dash: 9 });
     view.setLines("path", [...lines, ...(step.lines ?? [])]);
     const marks = hits.map((hit, i) => ({ at: hit.position, color: i <= reached ? "path" : "grey", shape: hit.stored ? "circle" : "ring" }));
     if (step.name === "emission") {
       // The cube of the draws, small, around the light.
       story.tries.forEach((xyz, i) => marks.push({ at: add(light.position, xyz, run.size * 0.12), color: i + 1 === story.tries.length ? "path" : "extra", shape: i + 1 === story.tries.length ? "circle" : "cross" }));
     }
+    if (comparison?.other && this.isDivergence(step)) marks.push({ at: comparison.other, color: "extra", shape: "cross" });
     run.lights.forEach(({ position }) => marks.push({ at: position, color: "light", shape: "diamond" }));
     view.setMarks(marks);
     const name = (hit) => (hit.stored ? String(hit.bounce) : "0, not stored");
-    this.labels = [["light", light.position], ...hits.map((hit) => [name(hit), hit.position]), ...(step.labels ?? [])];
+    this.labels = [["light", light.position, -20], ...hits.map((hit) => [name(hit), hit.position, 6]), ...(step.labels ?? []).map((label) => [...label, -12])];
     $("labels").replaceChildren(...this.labels.map(([words]) => make("span", { textContent: words })));
     this.placeLabels();
   }
@@ -375,7 +388,7 @@ class Page {
     [...$("labels").children].forEach((label, i) => {
       const place = view?.project(this.labels[i][1]);
       label.hidden = !place || place[0] < 0 || place[1] < 0 || place[0] > view.canvas.clientWidth || place[1] > view.canvas.clientHeight;
-      if (!label.hidden) label.style.transform = `translate(${Math.min(place[0] + 8, view.canvas.clientWidth - label.offsetWidth - 2)}px, ${place[1] - 20}px)`;
+      if (!label.hidden) label.style.transform = `translate(${Math.min(place[0] + 8, view.canvas.clientWidth - label.offsetWidth - 2)}px, ${place[1] + this.labels[i][2]}px)`;
     });
   }
 
@@ -461,7 +474,7 @@ function showCode(source, step, values) {
   $("code").replaceChildren(...parts);
   for (const list of $("code").querySelectorAll("ol")) {
     const lit = list.querySelector(".lit");
-    if (lit) list.scrollTop = lit.offsetTop - list.offsetTop - 28;
+    if (lit) list.scrollTop = lit.offsetTop - 28;
   }
 }
 
@@ -475,7 +488,11 @@ async function start() {
   } catch (error) {
     console.info(`no 3-D: ${error.message}`);
   }
+  // For the console and the tests.
   window.page = new Page(run, view);
+  view?.drawNow();
+  view?.gl.finish();
+  window.page.firstFrame = performance.now();
   document.body.dataset.ready = "yes";
 }
 start().catch((error) => {

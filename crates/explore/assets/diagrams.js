@@ -61,9 +61,9 @@ const diagrams = {
     const [a, b] = [[78, 84], [222, 116]], size = 62, on = [a[0] + size * r * Math.cos(theta), a[1] - size * r * Math.sin(theta)];
     const foot = [b[0] + size * r, b[1]], top = [b[0] + size * r, b[1] - size * z];
     return picture(300, 172, "The point on the disk from above, and lifted to the hemisphere from the side",
-      circle(a, size, "box"), line(a, [a[0] + size, a[1]], "faint"), line(a, on, "t"), circle(on, 4, "path fill"), text([a[0], 166], "disk from above: r, theta", "middle small"),
+      circle(a, size, "box"), line(a, [a[0] + size, a[1]], "faint"), line(a, on, "t"), circle(on, 4, "path fill"), text([a[0], 166], "disk from above", "middle small"),
       draw("path", { d: `M ${b[0] - size} ${b[1]} A ${size} ${size} 0 0 1 ${b[0] + size} ${b[1]} Z`, class: "box" }), arrow(b, [b[0], b[1] - size - 14], "n"), text([b[0] - 14, b[1] - size - 6], "n"),
-      line(b, foot, "t"), line(foot, top, "path dash"), arrow(b, top, "path"), text([b[0], 138], "r", "small"), text([b[0], 166], "from the side: z = sqrt(1 - u1)", "middle small"));
+      line(b, foot, "t"), line(foot, top, "path dash"), arrow(b, top, "path"), text([b[0] + size * r / 2, 132], "r", "middle small"), text([Math.min(b[0] + size * r + 5, 288), b[1] - size * z / 2 + 4], "z", "small"), text([b[0], 166], "from the side", "middle small"));
   },
   frame(t, b, n, direction, bare) {
     const at = oblique([150, 88], 62), centre = at([0, 0, 0]);

@@ -3,7 +3,8 @@
 const ENDINGS = {
   absorbed: "absorbed", left_the_scene: "leaves the scene", bounce_limit: "bounced as often as it may",
 };
-const about = (x, places = 4) => `≈ ${Number(x.toPrecision(places))}`;
+const about = (x, places = 4) => `about ${Number(x.toPrecision(places))}`;
+const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
 const degrees = (cosine) => `${(Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180 / Math.PI).toFixed(1)}°`;
 
 /** The steps of `story`, first to last: {bounce, name, say, values, more, marks, lines, diagram}. */
@@ -102,11 +103,11 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
   return [{
     name: "hemisphere",
     say: [
-      `u1 sets how far from the centre of the disk: r = ${about(r)}. u2 sets the angle: theta = ${(u2 * 360).toFixed(1)}°.`,
-      `Lifted to the hemisphere, the point has height z = ${about(up)}: the new direction is ${degrees(up)} from the normal.`,
+      `u1 sets how far from the centre of the disk: r is ${about(r)}. u2 sets the angle: theta is ${(u2 * 360).toFixed(1)}°.`,
+      `Lifted to the hemisphere, the point has height ${about(up)}: the new direction is ${degrees(up)} from the normal.`,
     ],
     values: {
-      u1: digits(u1), u2: digits(u2), r: digits(round(r)), theta: about(theta, 6), x: about(x, 6), y: about(y, 6), z: digits(round(Math.sqrt(round(1 - u1)))),
+      u1: digits(u1), u2: digits(u2), r: digits(round(r)), theta: near(theta), x: near(x), y: near(y), z: digits(round(Math.sqrt(round(1 - u1)))),
     },
     more: [["u1", digits(u1)], ["u2", digits(u2)]],
     lines: [...dome, { a: world([x, y, 0]), b: world([x, y, up]), color: "path", dash: 6 }, { a: position, b: world([x, y, 0]), color: "t", width: 2.5 },
@@ -118,7 +119,7 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
       isX ? `|n · x| is ${about(Math.abs(normal[0]))}, so the x axis ${axisName} builds t.`
         : `|n · x| is ${about(Math.abs(normal[0]))}, too close to 1: n is parallel to the x axis, so ${axisName} builds t.`,
       isUnit ? "Here n × axis has length 1 already, so normalising t and b changes nothing."
-        : `n × axis has length ${about(bare)} only. If t and b kept this length, the ray would leave ${degrees(bareCosine)} from the normal, not ${degrees(up)}: photons crowd around the normal.`,
+        : `n × axis has length ${about(bare)} before it is normalised. If t and b kept this length, the ray would leave ${degrees(bareCosine)} from the normal, not ${degrees(up)}. Over many photons, directions crowd around the normal.`,
     ],
     values: { normal: vectorText(normal), is_parallel: String(!isX), axis: axisName, tangent: vectorText(tangent), bitangent: vectorText(bitangent), world_direction: vectorText(direction) },
     more: [["t", vectorText(tangent)], ["b", vectorText(bitangent)], ["n", vectorText(normal)], ["|n × axis|", digits(round(bare))]],

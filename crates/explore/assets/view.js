@@ -27,25 +27,28 @@ void main() {
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
 uniform mat4 camera; uniform vec3 eye; uniform float pixels, least, most, size, dim; uniform vec3 palette[16];
-uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape;
+uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
   vec3 nearer = mix(position, eye, .0015);
   gl_Position = camera * vec4(nearer, 1);
   gl_Position.xy += shift * gl_Position.w;
-  float wide = clamp(size * pixels / gl_Position.w, least, most);
-  gl_PointSize = state == 2u ? max(wide * 1.6, 4.) : wide;
+  wide = clamp(size * pixels / gl_Position.w, least, most);
+  if (state == 2u) wide = max(wide * 1.6, 4.);
+  gl_PointSize = wide;
   if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
   uint id = uint(gl_VertexID) + 1u;
   c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255. : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
 }`;
 const DOT_FRAGMENT = `#version 300 es
-precision highp float; flat in vec4 c; flat in uint shape; uniform bool pick; uniform float least; out vec4 o;
+precision highp float; flat in vec4 c; flat in uint shape; flat in float wide; uniform bool pick; out vec4 o;
 void main() {
+  // Too small for a shape: a square, so that at least one pixel is drawn.
+  if (pick || wide < 3.) { o = c; return; }
   vec2 p = abs(gl_PointCoord * 2. - 1.); float d = length(p);
   bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88 : shape == 2u ? p.x + p.y < 1.
     : shape == 3u ? p.x < gl_PointCoord.y * .95 : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
-  if (!inside && !pick) discard;
+  if (!inside) discard;
   o = c;
 }`;
 // A line is a strip of two triangles, as wide as it is told in pixels.
@@ -73,7 +76,7 @@ class View {
   constructor(canvas, onDraw) {
     this.canvas = canvas;
     this.onDraw = onDraw;
-    const gl = this.gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+    const gl = this.gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
     if (!gl) throw new Error("no WebGL2");
     const program = (vertex, fragment) => {
       const made = gl.createProgram();
@@ -95,6 +98,7 @@ class View {
     this.wallAlpha = 1;
     this.dotScale = 1;
     this.dim = 1;
+    this.part = this.pace = 1;
     this.pickTarget = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.pickTarget);
     for (const [point, format] of [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]]) {
@@ -130,8 +134,31 @@ class View {
     this.draw();
   }
 
-  /** Shows the `dots` at `positions`, each with a look: palette entry and shape, then 0 hidden, 1 plain, 2 lit. */
-  setDots(positions, looks) { this.setLayer("dots", looks.length / 2, [[positions, 3], [looks, 2]]); }
+  /** Shows dots at `positions`, each with a look (palette entry and shape; then 0 hidden, 1 plain, 2 lit) and the index of
+   * its face, or one beyond the last. They are drawn face by face, so that those on the far side can be left out. */
+  setDots(positions, looks, faceOf) {
+    const { gl } = this, starts = new Uint32Array(this.faces.length + 2);
+    for (let i = 0; i < faceOf.length; i++) if (looks[2 * i + 1]) starts[faceOf[i] + 1]++;
+    for (let face = 0; face <= this.faces.length; face++) starts[face + 1] += starts[face];
+    const next = starts.slice(), order = new Uint32Array(starts.at(-1));
+    for (let i = 0; i < faceOf.length; i++) if (looks[2 * i + 1]) order[next[faceOf[i]]++] = i;
+    this.setLayer("dots", order.length, [[positions, 3], [looks, 2]]);
+    this.layers.dots.starts = starts;
+    gl.bindVertexArray(this.layers.dots.vao);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.dotOrder ??= gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, order, gl.DYNAMIC_DRAW);
+    gl.bindVertexArray(null);
+  }
+
+  /** Draws the dots in sight. The first part of a face's dots is spread over all of it, since paths are in no order. */
+  drawFaces({ starts }, part) {
+    const { gl, eye } = this;
+    for (let face = 0; face <= this.faces.length; face++) {
+      const count = Math.ceil((starts[face + 1] - starts[face]) * part), { normal, at } = this.faces[face] ?? {};
+      const isTurnedAway = normal && this.wallAlpha === 1 && dot(normal, add(eye, at, -1)) < 0;
+      if (count && !isTurnedAway) gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 4 * starts[face]);
+    }
+  }
 
   /** Draws larger dots over all others: of {at, color, shape}. */
   setMarks(marks) {
@@ -151,7 +178,18 @@ class View {
     Object.assign(this.camera ??= {}, camera);
     const limit = Math.PI / 2 - 0.001;
     this.camera.pitch = Math.min(Math.max(this.camera.pitch, -limit), limit);
+    this.moved = performance.now();
     this.draw();
+  }
+
+  /** While the camera moves, draws no more dots than are drawn in time; all of them as soon as it rests. */
+  keepPace() {
+    const now = performance.now(), since = now - (this.drawn ?? 0), isMoving = now - (this.moved ?? 0) < 150;
+    if (isMoving && since < 1000) this.pace = Math.min(Math.max(this.pace * Math.min(Math.max(42 / since, 0.6), 1.15), 0.02), 1);
+    this.part = isMoving ? this.pace : 1;
+    this.drawn = now;
+    clearTimeout(this.rest);
+    if (this.part < 1) this.rest = setTimeout(() => this.draw(), 200);
   }
 
   /** The way the camera looks, and what is right and up to it. */
@@ -200,6 +238,7 @@ class View {
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((edge) => Math.max(1, Math.round(edge * ratio)));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     this.projection = this.matrix();
+    this.keepPace();
     gl.viewport(0, 0, width, height);
     gl.clearColor(...this.air, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -249,7 +288,9 @@ class View {
     gl.uniform1i(program.at("pick"), pick ? 1 : 0);
     // A ray of the handout goes through the upper left corner of its pixel: half a pixel off the middle.
     gl.uniform2f(program.at("shift"), pick ? 0 : 1 / canvas.width, pick ? 0 : -1 / canvas.height);
-    this.drawLayer(layer, blend && !pick, () => gl.drawArrays(gl.POINTS, 0, layer.count));
+    this.drawLayer(layer, blend && !pick, () => {
+      if (isMark) gl.drawArrays(gl.POINTS, 0, layer.count); else this.drawFaces(layer, pick ? 1 : this.part);
+    });
   }
 
   drawLines(name, ratio) {

@@ -57,6 +57,8 @@ struct Step {
     name: &'static str,
     /// Label, the reference's value, the other list's.
     sides: Vec<[String; 3]>,
+    /// Where the other list has its record, if it has one.
+    other: Option<[f32; 3]>,
 }
 
 /// The overlay as the page's columns.
@@ -149,48 +151,36 @@ impl Comparison {
             Section::HemisphereRayTransformation => (before, "frame"),
         };
         let mut sides = vec![[
-            "what it does".to_owned(),
+            "at this bounce".to_owned(),
             divergence.reference.clone(),
             divergence.submission.clone(),
         ]];
-        sides.extend(self.values(&story, recorded));
-        Some(Step { photon, bounce, name, sides })
+        let (reference, submission) = self.records_of(photon, recorded);
+        sides.extend(values(&story, recorded, reference, submission));
+        let other = submission.map(|record| record.position).filter(|place| place.is_finite());
+        Some(Step { photon, bounce, name, sides, other: other.map(|place| place.to_array()) })
     }
 
-    /// Both lists' values of the record of bounce `bounce`.
-    fn values(&self, story: &Story, bounce: usize) -> Vec<[String; 3]> {
+    /// The records of bounce `bounce` of `photon` in both lists.
+    fn records_of(
+        &self,
+        photon: u64,
+        bounce: usize,
+    ) -> (Option<&PhotonRecord>, Option<&PhotonRecord>) {
         let is_it = |record: &PhotonRecord| {
-            u64::from(record.photon) == story.photon && usize::from(record.bounce) == bounce
+            u64::from(record.photon) == photon && usize::from(record.bounce) == bounce
         };
+        let (reference, submission) = (&self.reference.records, &self.submission.records);
         let pairing = self.pairings.iter().find(|pairing| match **pairing {
-            Pairing::Both(i, _) | Pairing::Missing(i) => is_it(&self.reference.records[i]),
-            Pairing::Extra(j) => self.submission.columns.photon && is_it(&self.submission.records[j]),
+            Pairing::Both(i, _) | Pairing::Missing(i) => is_it(&reference[i]),
+            Pairing::Extra(j) => self.submission.columns.photon && is_it(&submission[j]),
         });
-        let Some(pairing) = pairing else { return Vec::new() };
-        let (reference, submission) = match *pairing {
-            Pairing::Both(i, j) => (Some(i), Some(j)),
-            Pairing::Missing(i) => (Some(i), None),
-            Pairing::Extra(j) => (None, Some(j)),
-        };
-        let reference = reference.map(|i| &self.reference.records[i]);
-        let submission = submission.map(|j| &self.submission.records[j]);
-        let none = || "none".to_owned();
-        let tell = |value: Option<Vec3>| value.map_or_else(none, |value| vector(&value.to_array()));
-        let mut rows = vec![[
-            "position".to_owned(),
-            tell(reference.map(|record| record.position)),
-            tell(submission.map(|record| record.position)),
-        ]];
-        let before = bounce.checked_sub(1).and_then(|before| story.hits.get(before));
-        if let (Some(before), Some(submission)) = (before, submission) {
-            let way = (submission.position - before.point()).normalize();
-            let normal = Vec3::from_array(before.normal);
-            let angle = |direction: Vec3| format!("{:.1}°", direction.angle_between(normal).to_degrees());
-            let expected = before.direction.map(Vec3::from_array);
-            rows.push(["direction".to_owned(), tell(expected), tell(Some(way))]);
-            rows.push(["angle to n".to_owned(), expected.map_or_else(none, angle), angle(way)]);
+        match pairing.copied() {
+            Some(Pairing::Both(i, j)) => (Some(&reference[i]), Some(&submission[j])),
+            Some(Pairing::Missing(i)) => (Some(&reference[i]), None),
+            Some(Pairing::Extra(j)) => (None, Some(&submission[j])),
+            None => (None, None),
         }
-        rows
     }
 
     /// The overlay; `places` has the place of each record of the reference among the page's photons.
@@ -268,15 +258,47 @@ impl Comparison {
             "photon": self.step.as_ref().map(|step| step.photon),
             "bounce": self.step.as_ref().map(|step| step.bounce),
             "step": self.step.as_ref().map(|step| step.name),
+            "other": self.step.as_ref().and_then(|step| step.other),
             "sides": self.step.as_ref().map(|step| &step.sides),
         })
     }
 }
 
-/// `clause` with a capital and a full stop.
+/// Both lists' values of the record of bounce `bounce`, with labels.
+fn values(
+    story: &Story,
+    bounce: usize,
+    reference: Option<&PhotonRecord>,
+    submission: Option<&PhotonRecord>,
+) -> Vec<[String; 3]> {
+    let none = || "none".to_owned();
+    let tell = |value: Option<Vec3>| value.map_or_else(none, |value| vector(&value.to_array()));
+    let mut rows = Vec::new();
+    if reference.or(submission).is_some() {
+        let position = |record: &PhotonRecord| record.position;
+        let [a, b] = [reference, submission].map(|record| tell(record.map(position)));
+        rows.push(["position".to_owned(), a, b]);
+    }
+    let before = bounce.checked_sub(1).and_then(|before| story.hits.get(before));
+    if let (Some(before), Some(submission)) = (before, submission) {
+        let way = (submission.position - before.point()).normalize();
+        let normal = Vec3::from_array(before.normal);
+        let angle = |way: Vec3| format!("{:.1}°", way.angle_between(normal).to_degrees());
+        let expected = before.direction.map(Vec3::from_array);
+        rows.push(["direction".to_owned(), tell(expected), tell(Some(way))]);
+        rows.push(["angle to n".to_owned(), expected.map_or_else(none, angle), angle(way)]);
+    }
+    rows
+}
+
+/// `clause` with a capital and a full stop; symbols, as r and t, keep their case.
 fn sentence(clause: &str) -> String {
     let mut letters = clause.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    let is_word = clause.chars().take(2).all(char::is_alphabetic);
+    let first: String = match letters.next() {
+        Some(first) if is_word => first.to_uppercase().collect(),
+        first => first.into_iter().collect(),
+    };
     let stop = if clause.ends_with('.') { "" } else { "." };
     first + letters.as_str() + stop
 }
