@@ -2,10 +2,10 @@
 //! one: the check that another processor gives the same bits. Exits with 1 when it does not.
 
 use photon_mapping::assignment8;
-use photon_mapping::lanes::LaneTracer;
-use photon_mapping::lanes::width::Width;
-use photon_mapping::photon_list::trace::trace_piece;
-use photon_mapping::photon_list::writer::ListHash;
+use fast::lanes::LaneTracer;
+use fast::lanes::width::Width;
+use variants::trace::trace_piece;
+use photon_mapping::photon_list::ListHash;
 
 fn main() {
     let renderer = assignment8::create_renderer(assignment8::create_scene());

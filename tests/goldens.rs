@@ -3,18 +3,17 @@
 //! `INSTA_UPDATE=always cargo test --test goldens` refreshes everything in `golden/`; nothing else
 //! writes there. See the value-stability policy in `CHANGELOG.md` before doing so.
 
-mod common;
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use common::{closed_cube, handout, hash, list};
+use fixtures::{closed_cube, handout, hash, list};
 use glam::Vec3;
 use photon_mapping::assignment8;
-use photon_mapping::photon_list::record::PhotonRecord;
+use photon_list::PhotonRecord;
 use photon_mapping::rendering::image_writer::take_picture;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use photon_mapping::rendering::reading::Reading;
+use variants::reading::Reading;
 
 fn snapshot(name: &str, content: &str) {
     let mut settings = insta::Settings::clone_current();

@@ -1,16 +1,15 @@
 //! Hard cases of directions, frames, draws, edges and bounces, each with what is right.
 
-mod common;
 
-use common::{closed_cube, draws, handout, list};
+use fixtures::{closed_cube, draws, handout, list};
 use glam::{DVec3, Vec3};
 use photon_mapping::assignment8;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
-use photon_mapping::rendering::reading::Reading;
+use variants::reading::Reading;
 use photon_mapping::rendering::sampling::{sample_hemisphere, tangent_frame};
 use photon_mapping::scene::LARGE_EPSILON;
-use photon_mapping::scene::intersection_state::IntersectionState;
-use photon_mapping::scene::obj::{self, Model};
+use photon_mapping::scene::ray::IntersectionState;
+use model::obj::{self, Model};
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 
@@ -70,21 +69,21 @@ fn box_side_normals() {
 
 #[test]
 fn three_draws_give_the_zero_vector() {
-    let light = common::light();
+    let light = fixtures::light();
     let mut rand = draws(&[0.5, 0.5, 0.5, 0.5, 0.5, 0.75]);
     assert_eq!(light.generate_random_photon_ray(&mut rand).ray_direction(), Vec3::Z);
 }
 
 #[test]
 fn squared_length_exactly_one() {
-    let light = common::light();
+    let light = fixtures::light();
     let mut rand = draws(&[0.0, 0.5, 0.5]);
     assert_eq!(light.generate_random_photon_ray(&mut rand).ray_direction(), Vec3::NEG_X);
 }
 
 #[test]
 fn squared_length_just_above_one() {
-    let light = common::light();
+    let light = fixtures::light();
     let mut rand = draws(&[0.0, 0.5, 0.501, 0.5, 0.0, 0.5]);
     assert_eq!(light.generate_random_photon_ray(&mut rand).ray_direction(), Vec3::NEG_Y);
 }

@@ -1,11 +1,10 @@
 //! Runs held against what is known without tracing.
 
-mod common;
 
-use common::{closed_cube, handout, list};
+use fixtures::{closed_cube, handout, list};
 use glam::DVec3;
-use photon_mapping::accuracy::table::ExpectedTable;
-use photon_mapping::photon_list::record::PhotonRecord;
+use oracle::table::ExpectedTable;
+use photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 
 /// Hits on every surface at every bounce, from the first hit on.

@@ -1,12 +1,11 @@
 //! What holds for any numbers: directions, frames, paths.
 
-mod common;
 
-use common::{closed_cube, handout};
+use fixtures::{closed_cube, handout};
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
-use photon_mapping::rendering::reading::Reading;
+use variants::reading::Reading;
 use photon_mapping::rendering::sampling::{sample_hemisphere, tangent_frame};
 use proptest::prelude::*;
 
@@ -17,7 +16,7 @@ fn is_unit(vector: Vec3) -> bool {
 /// Unit vectors anywhere, and, half of them, within a hair of the x axis.
 fn unit_normal() -> impl Strategy<Value = Vec3> {
     let anywhere = (any::<u64>()).prop_map(|seed| {
-        let light = common::light();
+        let light = fixtures::light();
         light.generate_random_photon_ray(&mut photon_random(seed, 0)).ray_direction()
     });
     let near_x = (any::<bool>(), 0_i32..30, 0_i32..30, any::<bool>(), any::<bool>()).prop_map(
@@ -42,7 +41,7 @@ proptest! {
 
     #[test]
     fn emitted_directions_are_unit(seed: u64, photon: u64) {
-        let light = common::light();
+        let light = fixtures::light();
         let ray = light.generate_random_photon_ray(&mut photon_random(seed, photon));
         prop_assert!(is_unit(ray.ray_direction()));
         prop_assert_eq!(ray.position(), light.position);
@@ -117,9 +116,9 @@ proptest! {
         cuts.extend([0, 3000]);
         cuts.sort_unstable();
         let pieces = cuts.windows(2).flat_map(|cut| {
-            photon_mapping::photon_list::trace::trace_piece(&renderer, cut[0]..cut[1])
+            variants::trace::trace_piece(&renderer, cut[0]..cut[1])
         });
-        prop_assert_eq!(pieces.collect::<Vec<_>>(), common::list(&renderer));
+        prop_assert_eq!(pieces.collect::<Vec<_>>(), fixtures::list(&renderer));
     }
 }
 
@@ -138,7 +137,7 @@ fn standard_errors(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
 
 #[test]
 fn moments_of_emission() {
-    let light = common::light();
+    let light = fixtures::light();
     let directions: Vec<_> = (0..400_000)
         .map(|photon| {
             light
