@@ -121,7 +121,7 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
       isUnit ? "Here n × axis has length 1 already, so normalising t and b changes nothing."
         : `n × axis has length ${about(bare)} before it is normalised. If t and b kept this length, the ray would leave ${degrees(bareCosine)} from the normal, not ${degrees(up)}. Over many photons, directions crowd around the normal.`,
     ],
-    values: { normal: vectorText(normal), is_parallel: String(!isX), axis: axisName, tangent: vectorText(tangent), bitangent: vectorText(bitangent), world_direction: vectorText(direction) },
+    values: { normal: vectorText(normal), is_parallel: String(!isX), axis: axisName, tangent: vectorText(tangent), bitangent: vectorText(bitangent) },
     more: [["t", vectorText(tangent)], ["b", vectorText(bitangent)], ["n", vectorText(normal)], ["|n × axis|", digits(round(bare))]],
     lines: [...frame, normalLine, ray], labels: [["t", frame[0].b], ["b", frame[1].b], ["n", normalLine.b]],
     diagram: () => diagrams.frame(tangent, bitangent, normal, direction, bare),
@@ -131,7 +131,7 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
       `The new ray leaves along (x, y, z) in the frame: x t + y b + z n.`,
       "It starts a little above the surface. The point hit is rounded and may lie below; a ray from there would meet the same surface again.",
     ],
-    values: { world_direction: vectorText(direction), start: vectorText(start), remaining_bounces: String(run.maxBounces - hit.bounce - 1) },
+    values: { world_space_direction: vectorText(direction), ...(run.offset === null ? {} : { start: vectorText(start), offset: digits(run.offset) }), remaining_bounces: String(run.maxBounces - hit.bounce - 1) },
     more: [["direction", vectorText(direction)], ["offset", run.offset === null ? "as this scene needs" : `${digits(run.offset)} along n`]],
     lines: [ray, normalLine], labels: [["n", normalLine.b]],
     diagram: () => diagrams.offset(direction, normal, run.offset),

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use compare::alignment::{Pairing, align, with_bounces};
+use compare::explain::{Story, explain, vector};
+use compare::position_index::is_near;
+use compare::report::{Outcome, Report, compare, scene_size};
 use glam::Vec3;
-use photon_mapping::compare::alignment::{Pairing, align, with_bounces};
-use photon_mapping::compare::position_index::is_near;
-use photon_mapping::compare::report::{Outcome, Report, compare, scene_size};
-use photon_mapping::compare::section::Section;
-use photon_mapping::explain::{Story, explain, vector};
-use photon_mapping::photon_list::reader::PhotonList;
-use photon_mapping::photon_list::record::PhotonRecord;
-use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
 use serde_json::{Value, json};
+use variants::run::Run;
+use variants::section::Section;
 
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
 /// default of `compare`.
@@ -77,22 +77,21 @@ pub(crate) struct Overlay {
 }
 
 impl Comparison {
-    /// Compares `submission` with `reference`, the list of `renderer`'s run.
+    /// Compares `submission` with `reference`, the list of `run`.
     pub fn new(
         other: Other,
         reference: PhotonList,
         submission: PhotonList,
-        renderer: &PhotonMappingRenderer,
+        run: &Run,
     ) -> Self {
-        let scene = &renderer.stored_scene;
-        let tolerance = TOLERANCE * scene.frame().length_to_world(scene_size(scene));
-        let report = compare(&reference, &submission, Some(renderer), tolerance, 0.0);
+        let tolerance = TOLERANCE * run.placement.length_to_world(scene_size(run.scene()));
+        let report = compare(&reference, &submission, Some(run), tolerance, 0.0);
         let reference = with_bounces(&reference).into_owned();
         let submission = with_bounces(&submission).into_owned();
         let pairings = align(&reference, &submission, tolerance);
         let mut comparison =
             Self { other, report, pairings, reference, submission, tolerance, step: None };
-        comparison.step = comparison.find_step(renderer);
+        comparison.step = comparison.find_step(run);
         comparison
     }
 
@@ -134,10 +133,10 @@ impl Comparison {
         photons.collect()
     }
 
-    fn find_step(&self, renderer: &PhotonMappingRenderer) -> Option<Step> {
+    fn find_step(&self, run: &Run) -> Option<Step> {
         let divergence = self.report.first_divergence.as_ref()?;
         let photon = divergence.photon?;
-        let story = explain(renderer, photon)?;
+        let story = explain(run, photon)?;
         let recorded = divergence.bounce.unwrap_or(1).min(story.hits.len());
         // What went wrong happened at the hit before the record.
         let before = recorded.saturating_sub(1);

@@ -2,19 +2,20 @@
 //! source on one photon with its numbers.
 //!
 //! The page is one file: it needs no server and no network. It draws what the port computed: stories
-//! come from [`photon_mapping::explain`], lists and comparisons from their own modules. Only the
+//! come from [`compare::explain`], lists and comparisons from their own crates. Only the
 //! random numbers are drawn again in the page, since they would double its size.
 
 pub mod comparison;
+pub mod misreading;
 mod pack;
 mod page;
-mod run;
+mod paths;
 mod source;
 
 use image::RgbImage;
-use photon_mapping::photon_list::record::PhotonRecord;
-use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use photon_mapping::summary::SurfaceSummary;
+use oracle::summary::SurfaceSummary;
+use photon_mapping::photon_list::PhotonRecord;
+use variants::run::Run;
 
 use comparison::Comparison;
 
@@ -22,7 +23,7 @@ use comparison::Comparison;
 #[derive(Debug)]
 pub struct Exploration<'a> {
     /// The run of the reference.
-    pub renderer: &'a PhotonMappingRenderer,
+    pub run: &'a Run,
     /// Whether it is a run of the handout's scene.
     pub is_handout: bool,
     /// Its whole list, path after path.
@@ -35,6 +36,22 @@ pub struct Exploration<'a> {
     pub photon: Option<u64>,
     /// The list that is laid over the run's.
     pub comparison: Option<&'a Comparison>,
+}
+
+/// The name of `run` in its page.
+fn name_of(run: &Run) -> String {
+    let part = run.part(0..0);
+    format!("{} {} {} {}", part.seed, part.emitted, part.max_bounces, part.scene)
+}
+
+/// Whether the page that starts with `text` is one of `run`.
+pub fn is_page_of(text: &str, run: &Run) -> bool {
+    text.contains(&format!("<meta name=\"run\" content=\"{}\">", name_of(run)))
+}
+
+/// The part of a page's address that opens photon `photon`.
+pub fn link(photon: u64) -> String {
+    format!("#photon={photon}&bounce=0&step=emission")
 }
 
 impl Exploration<'_> {

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 
 use super::Exploration;
-use super::run::Run;
+use super::paths::Paths;
 use super::source::SOURCE;
 
 const TEMPLATE: &str = include_str!("../assets/explore.html");
@@ -27,9 +27,9 @@ const SCRIPT: &str = concat!(
 
 /// The page of `exploration`.
 pub fn page(exploration: &Exploration) -> String {
-    let run = Run::new(exploration);
+    let paths = Paths::new(exploration);
     let (meta, data) =
-        rayon::join(|| meta(exploration, &run), || run.columns.to_base64());
+        rayon::join(|| meta(exploration, &paths), || paths.columns.to_base64());
     let policy = format!(
         "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
         hash(SCRIPT),
@@ -41,6 +41,7 @@ pub fn page(exploration: &Exploration) -> String {
     };
     let parts = [
         ("policy", policy),
+        ("run", super::name_of(exploration.run)),
         ("title", escape(&title)),
         ("style", STYLE.to_owned()),
         ("meta", meta),
@@ -74,8 +75,8 @@ fn escape(text: &str) -> String {
 }
 
 /// What the script reads besides the columns. JSON within HTML must not hold a `<`.
-fn meta(exploration: &Exploration, run: &Run) -> String {
-    let renderer = exploration.renderer;
+fn meta(exploration: &Exploration, paths: &Paths) -> String {
+    let renderer = &exploration.run.renderer;
     let (surfaces, total) = exploration.table;
     let rows: Vec<Value> = surfaces
         .iter()
@@ -99,20 +100,20 @@ fn meta(exploration: &Exploration, run: &Run) -> String {
         "keptOf": exploration.records.len(),
         "maxBounces": renderer.max_photon_bounces,
         "isHandout": exploration.is_handout,
-        "start": run.start,
+        "start": paths.start,
         "columns": ["bounce 1", "bounce 2", "bounce 3", "bounce 4+", "stored"],
         "rows": rows,
-        "surfaces": run.surfaces,
-        "faces": run.faces,
-        "lights": run.lights,
-        "camera": run.camera,
-        "size": run.size,
-        "dotSize": run.dot_size,
-        "offset": run.offset,
+        "surfaces": paths.surfaces,
+        "faces": paths.faces,
+        "lights": paths.lights,
+        "camera": paths.camera,
+        "size": paths.size,
+        "dotSize": paths.dot_size,
+        "offset": paths.offset,
         "picture": format!("data:image/png;base64,{}", STANDARD.encode(png)),
         "comparison": exploration.comparison.map(super::comparison::Comparison::meta),
         "source": SOURCE,
-        "sections": run.columns.sections(),
+        "sections": paths.columns.sections(),
     });
     meta.to_string().replace('<', "\\u003c")
 }

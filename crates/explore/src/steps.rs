@@ -35,34 +35,39 @@ struct Part {
 
 /// The lines that a step lights.
 enum Lines {
-    /// All under the step comment of the step's section.
-    Section,
-    /// Of these, from the first line that contains one text to the next that contains another.
-    Within(&'static str, &'static str),
-    /// The whole body.
+    /// All under the step comment of a section.
+    Section(&'static str),
+    /// Of the lines under a step comment, from the first that contains one text to the next that
+    /// contains another.
+    Within(&'static str, &'static str, &'static str),
+    /// The whole function.
     Body,
 }
 
-const POINT_LIGHT: &str = "src/scene/lights/point_light.rs";
-const RENDERER: &str = "src/rendering/photon_mapping_renderer.rs";
-const SAMPLING: &str = "src/rendering/sampling.rs";
+const EMISSION: &str = SECTIONS[0];
+const STORAGE: &str = SECTIONS[1];
+const SCATTERING: &str = SECTIONS[2];
+const SAMPLING: &str = SECTIONS[3];
+const TRANSFORMATION: &str = SECTIONS[4];
 
 /// The functions shown, and their files.
-const FUNCTIONS: [(&str, &str); 4] = [
-    ("generate_random_photon_ray", POINT_LIGHT),
-    ("trace_photon", RENDERER),
-    ("sample_hemisphere", SAMPLING),
-    ("tangent_frame", SAMPLING),
+const FUNCTIONS: [(&str, &str); 6] = [
+    ("generate_random_photon_ray", "src/scene/point_light.rs"),
+    ("trace_photon", "src/rendering/photon_mapping_renderer.rs"),
+    ("diffuse_reflection_ray", "src/rendering/photon_mapping_renderer.rs"),
+    ("sample_hemisphere", "src/rendering/sampling.rs"),
+    ("tangent_frame", "src/rendering/sampling.rs"),
+    ("spawn_ray", "src/scene/numerics.rs"),
 ];
 
 const STEPS: [Step; 9] = [
     Step {
         name: "emission",
         short: "Emission",
-        section: "Photon Emission",
+        section: EMISSION,
         parts: &[Part {
             function: "generate_random_photon_ray",
-            lines: Lines::Section,
+            lines: Lines::Section(EMISSION),
             values: &[
                 ("let x = ", "x"),
                 ("let y = ", "y"),
@@ -75,10 +80,10 @@ const STEPS: [Step; 9] = [
     Step {
         name: "hit",
         short: "Hit",
-        section: "Photon Storage",
+        section: STORAGE,
         parts: &[Part {
             function: "trace_photon",
-            lines: Lines::Within("if remaining_bounces < 0", "let intersection_point"),
+            lines: Lines::Within(STORAGE, "if remaining_bounces < 0", "let intersection_point"),
             values: &[
                 ("if remaining_bounces < 0", "remaining_bounces"),
                 (".trace(photon_ray", "trace()"),
@@ -89,10 +94,10 @@ const STEPS: [Step; 9] = [
     Step {
         name: "stored",
         short: "Stored?",
-        section: "Photon Storage",
+        section: STORAGE,
         parts: &[Part {
             function: "trace_photon",
-            lines: Lines::Within("if path.len() > 1", "path.push("),
+            lines: Lines::Within(STORAGE, "if path.len() > 1", "path.push("),
             values: &[
                 ("if path.len() > 1", "path.len()"),
                 ("photon_map.push(", "photon_map.push()"),
@@ -103,10 +108,10 @@ const STEPS: [Step; 9] = [
     Step {
         name: "roulette",
         short: "Roulette",
-        section: "Photon Scattering/Absorption",
+        section: SCATTERING,
         parts: &[Part {
             function: "trace_photon",
-            lines: Lines::Section,
+            lines: Lines::Within(SCATTERING, SCATTERING, "return;"),
             values: &[
                 ("let diffuse_response", "diffuse_response"),
                 ("let probability_of_reflection", "probability_of_reflection"),
@@ -117,12 +122,12 @@ const STEPS: [Step; 9] = [
     Step {
         name: "hemisphere",
         short: "Hemisphere",
-        section: "Hemisphere Sampling",
+        section: SAMPLING,
         parts: &[
             Part {
                 function: "trace_photon",
-                lines: Lines::Section,
-                values: &[("let u1 = ", "u1"), ("let u2 = ", "u2")],
+                lines: Lines::Within(SCATTERING, "let (u1, u2)", "let diffuse_reflection_ray"),
+                values: &[("let (u1, u2)", "u1"), ("let (u1, u2)", "u2")],
             },
             Part {
                 function: "sample_hemisphere",
@@ -140,12 +145,12 @@ const STEPS: [Step; 9] = [
     Step {
         name: "frame",
         short: "Frame",
-        section: "Hemisphere Ray Transformation",
+        section: TRANSFORMATION,
         parts: &[
             Part {
-                function: "trace_photon",
-                lines: Lines::Within("let normal", "let world_direction"),
-                values: &[("let normal", "normal"), ("let world_direction", "world_direction")],
+                function: "diffuse_reflection_ray",
+                lines: Lines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
+                values: &[("let normal", "normal")],
             },
             Part {
                 function: "tangent_frame",
@@ -153,8 +158,8 @@ const STEPS: [Step; 9] = [
                 values: &[
                     ("let is_parallel", "is_parallel"),
                     ("let axis", "axis"),
-                    ("let mut tangent", "tangent"),
-                    ("let mut bitangent", "bitangent"),
+                    ("let tangent", "tangent"),
+                    ("let bitangent", "bitangent"),
                 ],
             },
         ],
@@ -162,33 +167,42 @@ const STEPS: [Step; 9] = [
     Step {
         name: "ray",
         short: "New ray",
-        section: "Hemisphere Ray Transformation",
-        parts: &[Part {
-            function: "trace_photon",
-            lines: Lines::Within("let needed", "remaining_bounces - 1"),
-            values: &[
-                ("let start", "start"),
-                ("remaining_bounces - 1", "remaining_bounces"),
-            ],
-        }],
+        section: TRANSFORMATION,
+        parts: &[
+            Part {
+                function: "diffuse_reflection_ray",
+                lines: Lines::Within(TRANSFORMATION, "spawn_ray(", "spawn_ray("),
+                values: &[("spawn_ray(", "world_space_direction")],
+            },
+            Part {
+                function: "spawn_ray",
+                lines: Lines::Body,
+                values: &[("let (start, offset)", "start"), ("let (start, offset)", "offset")],
+            },
+            Part {
+                function: "trace_photon",
+                lines: Lines::Within(SCATTERING, "self.trace_photon(", "remaining_bounces - 1"),
+                values: &[("remaining_bounces - 1", "remaining_bounces")],
+            },
+        ],
     },
     Step {
         name: "miss",
         short: "No hit",
-        section: "Photon Storage",
+        section: STORAGE,
         parts: &[Part {
             function: "trace_photon",
-            lines: Lines::Within(".trace(photon_ray", "return;"),
+            lines: Lines::Within(STORAGE, ".trace(photon_ray", "return;"),
             values: &[(".trace(photon_ray", "trace()")],
         }],
     },
     Step {
         name: "limit",
         short: "Bounce limit",
-        section: "Photon Storage",
+        section: STORAGE,
         parts: &[Part {
             function: "trace_photon",
-            lines: Lines::Within("if remaining_bounces < 0", "return;"),
+            lines: Lines::Within(STORAGE, "if remaining_bounces < 0", "return;"),
             values: &[("if remaining_bounces < 0", "remaining_bounces")],
         }],
     },
@@ -284,17 +298,17 @@ fn find_part(step: &Step, part: &Part, functions: &[FoundFunction]) -> Result<Fo
     let FoundFunction { name, file, first, lines } = &functions[index];
     let is_comment = |line: &String, section: &str| line.trim() == format!("// {section}");
     let last = lines.len() - 1;
-    let (start, end) = if matches!(part.lines, Lines::Body) {
-        (0, last)
-    } else {
-        let section = step.section;
-        let start =
-            lines.iter().position(|line| is_comment(line, section)).ok_or_else(|| {
-                format!("{file}:{first}: expected the step comment '// {section}' in '{name}'")
-            })?;
-        let is_next = |line: &String| SECTIONS.iter().any(|section| is_comment(line, section));
-        let next = lines[start + 1..].iter().position(is_next);
-        (start, next.map_or(last - 1, |next| start + next))
+    let (start, end) = match part.lines {
+        Lines::Body => (0, last),
+        Lines::Section(section) | Lines::Within(section, ..) => {
+            let start =
+                lines.iter().position(|line| is_comment(line, section)).ok_or_else(|| {
+                    format!("{file}:{first}: expected the step comment '// {section}' in '{name}'")
+                })?;
+            let is_next = |line: &String| SECTIONS.iter().any(|section| is_comment(line, section));
+            let next = lines[start + 1..].iter().position(is_next);
+            (start, next.map_or(last - 1, |next| start + next))
+        }
     };
     let line_with = |from: usize, needle: &str| {
         let found = lines[from..=end].iter().position(|line| line.contains(needle));
@@ -307,8 +321,8 @@ fn find_part(step: &Step, part: &Part, functions: &[FoundFunction]) -> Result<Fo
         })
     };
     let lit = match part.lines {
-        Lines::Section | Lines::Body => [start, end],
-        Lines::Within(from, to) => {
+        Lines::Section(_) | Lines::Body => [start, end],
+        Lines::Within(_, from, to) => {
             let from = line_with(start, from)?;
             [from, line_with(from, to)?]
         }

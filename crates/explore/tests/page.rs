@@ -8,15 +8,15 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use browser::{Browser, launch};
-use photon_mapping::explain::{Hit, Story, explain};
+use compare::explain::{Hit, Story, explain};
 use serde_json::{Value, json};
-use support::{Run, float, write_page};
+use support::{Traced, float, write_page};
 
 /// The run of the handout, and its page.
-fn handout() -> &'static (Run, PathBuf) {
-    static PAGE: OnceLock<(Run, PathBuf)> = OnceLock::new();
+fn handout() -> &'static (Traced, PathBuf) {
+    static PAGE: OnceLock<(Traced, PathBuf)> = OnceLock::new();
     PAGE.get_or_init(|| {
-        let run = Run::new(1_000_000);
+        let run = Traced::new(1_000_000);
         let path = write_page("handout", &run.exploration(None).page());
         (run, path)
     })
@@ -96,7 +96,7 @@ fn clicking_a_dot_opens_its_photon() {
 }
 
 fn vector(xyz: &[f32; 3]) -> String {
-    photon_mapping::explain::vector(xyz)
+    compare::explain::vector(xyz)
 }
 
 /// Checks all that the panel shows at the hit `hit`, whose steps are `steps`.
@@ -128,7 +128,7 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     assert_eq!(frame["values"]["tangent"], vector(&tangent));
     assert_eq!(frame["values"]["bitangent"], vector(&bitangent));
     assert_eq!(frame["values"]["normal"], vector(&hit.normal));
-    assert_eq!(frame["values"]["world_direction"], vector(&direction));
+    assert_eq!(ray["values"]["world_space_direction"], vector(&direction));
     assert_eq!(ray["more"]["direction"], vector(&direction));
 }
 
@@ -164,7 +164,7 @@ fn the_panel_has_the_numbers_of_explain() {
         let list = json!(some);
         let steps = browser.run(&format!("{list}.map((photon) => {{ page.open(photon, 0, 'emission'); return {ALL_STEPS}; }})"));
         for (photon, steps) in some.iter().zip(steps.as_array().expect("a list")) {
-            check_story(&explain(&run.renderer, *photon).expect("emitted"), steps);
+            check_story(&explain(&run.run, *photon).expect("emitted"), steps);
         }
     }
     browser.has_been_quiet();

@@ -4,46 +4,52 @@ use std::path::{Path, PathBuf};
 
 use explore::Exploration;
 use explore::comparison::Comparison;
+use fast::lanes::picture::take_picture;
+use fast::lanes::width::Width;
 use image::RgbImage;
-use photon_mapping::accuracy::table::ExpectedTable;
+use oracle::summary::{SurfaceSummary, Tally};
+use oracle::table::ExpectedTable;
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
 use photon_mapping::assignment8;
-use photon_mapping::lanes::picture::take_picture;
-use photon_mapping::lanes::width::Width;
-use photon_mapping::photon_list::reader::PhotonList;
-use photon_mapping::photon_list::record::{Columns, PhotonRecord};
-use photon_mapping::photon_list::trace::trace_list;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_map::PhotonMap;
-use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use photon_mapping::summary::{SurfaceSummary, Tally};
 use serde_json::Value;
+use variants::run::Run;
 
-/// A run, its list, table and picture.
-pub struct Run {
-    pub renderer: PhotonMappingRenderer,
+/// A run of the handout with its list, table and picture.
+pub struct Traced {
+    pub run: Run,
     pub records: Vec<PhotonRecord>,
     pub table: (Vec<SurfaceSummary>, SurfaceSummary),
     pub picture: RgbImage,
 }
 
-impl Run {
-    /// The handout's run with `photons` emitted.
+impl Traced {
+    /// The run with `photons` emitted.
     pub fn new(photons: u64) -> Self {
-        let mut renderer = assignment8::create_renderer(assignment8::create_scene());
-        renderer.photon_count = photons;
+        Self::of(Run::handout(assignment8::SEED, photons))
+    }
+
+    /// Traces `run`.
+    pub fn of(mut run: Run) -> Self {
+        let emitted = run.renderer.emitted();
         let mut records = Vec::new();
-        let traced = trace_list(&renderer, 0..renderer.emitted(), |piece: &[PhotonRecord], _| {
+        let traced: Result<_, std::convert::Infallible> = run.trace_list(0..emitted, |piece, _| {
             records.extend_from_slice(piece);
-            Ok::<(), std::convert::Infallible>(())
+            Ok(())
         });
-        let Ok(()) = traced;
-        let names = renderer.stored_scene.mesh_objects().iter().map(|object| object.name.clone());
+        let Ok(_) = traced;
+        let names = run.scene().mesh_objects().iter().map(|object| object.name.clone());
         let mut tally = Tally::new(names);
         records.iter().for_each(|record| tally.add(record));
-        let table = tally.surfaces(photons, 1000, Some(&ExpectedTable::of_assignment8()));
-        renderer.diffuse_map = PhotonMap::new(records.iter().map(|record| record.position));
+        let max_bounces = run.renderer.max_photon_bounces as usize;
+        let table = tally.surfaces(emitted, max_bounces, Some(&ExpectedTable::of_assignment8()));
+        let positions = records.iter().map(|record| record.position);
+        run.renderer.diffuse_map = PhotonMap::new(positions);
         let camera = assignment8::create_camera(640, 480);
-        let picture = take_picture(&renderer, Width::widest(), &camera, 640, 480, || ());
-        Self { renderer, records, table, picture }
+        let picture = take_picture(&run.renderer, Width::widest(), &camera, 640, 480, || ());
+        Self { run, records, table, picture: picture.picture }
     }
 
     /// Its list.
@@ -56,7 +62,7 @@ impl Run {
     /// What its page shows, with `comparison` laid over it.
     pub fn exploration<'a>(&'a self, comparison: Option<&'a Comparison>) -> Exploration<'a> {
         Exploration {
-            renderer: &self.renderer,
+            run: &self.run,
             is_handout: true,
             records: &self.records,
             table: (&self.table.0, &self.table.1),

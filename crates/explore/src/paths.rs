@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
+use compare::explain::{Ending, Story, explain};
+use compare::report::scene_size;
 use glam::Vec3;
+use model::facets::facets;
 use photon_mapping::assignment8;
-use photon_mapping::compare::report::scene_size;
-use photon_mapping::explain::{Ending, Story, explain};
-use photon_mapping::photon_list::record::PhotonRecord;
-use photon_mapping::rendering::photon_mapping_renderer::{
-    PHOTON_DOT_RADIUS, PhotonMappingRenderer,
-};
-use photon_mapping::rendering::sampling::tangent_frame;
-use photon_mapping::scene::{LARGE_EPSILON, Scene};
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
+use photon_mapping::scene::Scene;
+use photon_mapping::scene::numerics::LARGE_EPSILON;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
+use variants::run::Run;
 
 use super::Exploration;
 use super::comparison::Comparison;
@@ -27,7 +27,7 @@ const MOST_STORIES_OF_OTHERS: usize = 20_000;
 
 /// What the page reads of a run.
 #[derive(Debug)]
-pub struct Run {
+pub struct Paths {
     /// The packed numbers.
     pub columns: Columns,
     /// The photon on which the page opens.
@@ -68,22 +68,22 @@ pub struct Face {
     triangles: Vec<[f32; 9]>,
 }
 
-impl Run {
+impl Paths {
     /// The run of `exploration`.
     pub fn new(exploration: &Exploration) -> Self {
-        let renderer = exploration.renderer;
-        let scene = &renderer.stored_scene;
-        let faces = faces(renderer);
+        let run = exploration.run;
+        let (scene, placement) = (run.scene(), &run.placement);
+        let faces = faces(run);
         let thinned = thin(exploration.records, MOST_STORED);
         let records = thinned.as_deref().unwrap_or(exploration.records);
         let stories = stories(exploration, records);
         let mut columns = Columns::default();
-        add_paths(&mut columns, &stories, &faces, scene);
+        add_paths(&mut columns, &stories, &faces, run);
         if let Some(comparison) = exploration.comparison {
             comparison.add_columns(&mut columns, &stored_places(&stories, exploration.records));
         }
         let first = records.first().map(|record| u64::from(record.photon));
-        let size = scene.frame().length_to_world(scene_size(scene));
+        let size = placement.length_to_world(scene_size(scene));
         Self {
             columns,
             start: exploration.photon.or(first).unwrap_or(0),
@@ -91,12 +91,12 @@ impl Run {
             lights: scene
                 .lights()
                 .iter()
-                .map(|light| json!({ "position": scene.frame().to_world(light.position).to_array() }))
+                .map(|light| json!({ "position": placement.to_world(light.position).to_array() }))
                 .collect(),
             camera: camera(exploration.is_handout, &faces, size),
             faces,
             size,
-            dot_size: scene.frame().length_to_world(2.0 * PHOTON_DOT_RADIUS),
+            dot_size: placement.length_to_world(2.0 * PHOTON_DOT_RADIUS),
             offset: exploration.is_handout.then_some(LARGE_EPSILON),
         }
     }
@@ -130,7 +130,7 @@ fn stories(exploration: &Exploration, records: &[PhotonRecord]) -> Vec<Story> {
     photons.extend(others);
     photons.par_sort_unstable();
     photons.dedup();
-    let stories = photons.par_iter().filter_map(|photon| explain(exploration.renderer, *photon));
+    let stories = photons.par_iter().filter_map(|photon| explain(exploration.run, *photon));
     stories.collect()
 }
 
@@ -149,7 +149,7 @@ fn stored_places(stories: &[Story], records: &[PhotonRecord]) -> Vec<Option<u32>
     places.collect()
 }
 
-fn add_paths(columns: &mut Columns, stories: &[Story], faces: &[Face], scene: &Scene) {
+fn add_paths(columns: &mut Columns, stories: &[Story], faces: &[Face], run: &Run) {
     let hits = || stories.iter().flat_map(|story| &story.hits);
     let mut before = 0;
     let steps: Vec<u32> = stories
@@ -192,7 +192,7 @@ fn add_paths(columns: &mut Columns, stories: &[Story], faces: &[Face], scene: &S
         let directions: Vec<_> = stories.iter().map(|story| story.emission.direction).collect();
         columns.vectors("emission", &directions);
     }
-    if !stories.iter().all(|story| direct_follows(story, scene)) {
+    if !stories.iter().all(|story| direct_follows(story, run)) {
         let direct = |story: &Story| story.hits.first().map_or([0.0; 3], |hit| hit.position);
         columns.vectors("direct", &stories.iter().map(direct).collect::<Vec<_>>());
     }
@@ -207,8 +207,8 @@ fn emission_follows(story: &Story) -> bool {
 }
 
 /// Whether a photon's first hit is where its ray is after the distance t.
-fn direct_follows(story: &Story, scene: &Scene) -> bool {
-    let light = scene.frame().to_world(scene.lights()[story.emission.light].position);
+fn direct_follows(story: &Story, run: &Run) -> bool {
+    let light = run.placement.to_world(run.scene().lights()[story.emission.light].position);
     let direction = Vec3::from_array(story.emission.direction);
     story.hits.first().is_none_or(|hit| {
         let point = light + hit.t * direction;
@@ -227,22 +227,18 @@ fn surfaces(scene: &Scene) -> Vec<Surface> {
 }
 
 /// The faces in order of surface, then facet.
-fn faces(renderer: &PhotonMappingRenderer) -> Vec<Face> {
-    let scene = &renderer.stored_scene;
-    let groups = scene
-        .triangles()
-        .chunk_by(|a, b| (a.parent_mesh_object, a.facet) == (b.parent_mesh_object, b.facet));
-    let mut faces: Vec<Face> = groups
+fn faces(run: &Run) -> Vec<Face> {
+    let mut faces: Vec<Face> = facets(run.scene())
         .map(|group| {
             let normal = group[0].normal;
-            let frame = tangent_frame(normal, &renderer.reading);
+            let frame = run.reading.tangent_frame(normal);
             // t is at a right angle to the axis from which it was built.
             let is_built_from = |axis: Vec3| {
                 let tangent = normal.cross(axis);
                 tangent.length() > 0.0 && tangent.normalize().distance(frame.x_axis.normalize()) < 1e-3
             };
             let axis = [Vec3::X, Vec3::Y].into_iter().find(|axis| is_built_from(*axis));
-            let axis = axis.unwrap_or(renderer.reading.fallback_axis);
+            let axis = axis.unwrap_or(run.reading.fallback_axis);
             Face {
                 surface: group[0].parent_mesh_object,
                 facet: group[0].facet,
@@ -254,7 +250,7 @@ fn faces(renderer: &PhotonMappingRenderer) -> Vec<Face> {
                 triangles: group
                     .iter()
                     .map(|triangle| {
-                        let corners = triangle.vertices.map(|corner| scene.frame().to_world(corner));
+                        let corners = triangle.vertices.map(|corner| run.placement.to_world(corner));
                         let mut numbers = [0.0; 9];
                         for (to, corner) in numbers.chunks_exact_mut(3).zip(corners) {
                             to.copy_from_slice(&corner.to_array());
@@ -272,15 +268,12 @@ fn faces(renderer: &PhotonMappingRenderer) -> Vec<Face> {
 /// The handout's camera, or one that sees all of another scene: what it turns around, how far from
 /// it, and its vertical field of view, in radians.
 fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
-    let handouts = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
-    let middle = handouts.generate_ray_for_normalized_coordinates(0.5, 0.5);
-    let top = handouts.generate_ray_for_normalized_coordinates(0.5, 0.0).ray_direction();
-    let forward = middle.ray_direction();
-    let field = 2.0 * f64::from(top.dot(forward)).acos();
+    let camera = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
+    let field = 2.0 * camera.half_height.atan();
     if is_handout {
         // It turns around the point before it that is nearest to the middle of the box.
-        let distance = -middle.position().dot(forward);
-        let target = (middle.position() + distance * forward).to_array();
+        let distance = -camera.position.dot(camera.forward);
+        let target = (camera.position + distance * camera.forward).to_array();
         return json!({
             "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0, "field": field
         });
