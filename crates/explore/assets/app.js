@@ -147,6 +147,7 @@ class Page {
     $("picture").hidden = false;
     $("view").hidden = true;
     document.body.classList.add("flat");
+    this.showDots();
   }
 
   readColors() {

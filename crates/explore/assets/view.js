@@ -30,7 +30,7 @@ uniform mat4 camera; uniform vec3 eye; uniform float pixels, least, most, size, 
 uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
-  vec3 nearer = mix(position, eye, .0015);
+  vec3 nearer = mix(position, eye, .002);
   gl_Position = camera * vec4(nearer, 1);
   gl_Position.xy += shift * gl_Position.w;
   wide = clamp(size * pixels / gl_Position.w, least, most);
@@ -264,6 +264,9 @@ class View {
   drawSurfaces(camera) {
     const { gl, programs: { surface }, layers: { surfaces } } = this;
     gl.useProgram(surface.made);
+    // A dot has one depth, a surface seen at a grazing angle has many within the same pixel.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(3, 2);
     gl.uniformMatrix4fv(surface.at("camera"), false, camera);
     gl.uniform3fv(surface.at("light"), this.light);
     gl.uniform3fv(surface.at("air"), this.air);

@@ -155,6 +155,8 @@ fn check_story(story: &Story, steps: &Value) {
 fn the_panel_has_the_numbers_of_explain() {
     let Some(browser) = open_handout("#photon=73") else { return };
     let run = &handout().0;
+    // Nothing needs to be laid out to be read.
+    browser.run("document.querySelector('main').style.display = 'none'");
     let mut photons: Vec<u64> = run.records.iter().map(|record| u64::from(record.photon)).collect();
     photons.dedup();
     // Photon 73, and 1,000 spread over the run.
@@ -302,7 +304,7 @@ fn without_webgl_the_rest_works() {
     browser.press("ArrowRight");
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
     browser.click_on("#table td button");
-    assert!(browser.text("document.getElementById('shown').textContent").contains("shortBox, bounce 1"));
+    browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
     browser.has_been_quiet();
 }
 

@@ -156,6 +156,9 @@ impl Browser {
     pub fn settle(&self) {
         let frame = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
         self.run(frame);
+        // While the camera moves, a slow machine draws only some of the dots.
+        self.wait_for("!window.page?.view || (page.view.part === 1 && performance.now() - (page.view.moved ?? 0) > 300)");
+        self.run(frame);
     }
 
     /// Makes the window `width` x `height` CSS pixels.
