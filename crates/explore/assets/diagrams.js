@@ -76,7 +76,7 @@ const diagrams = {
     const isUnit = Math.abs(bare - 1) < 1e-3;
     return picture(300, 176, "The frame t, b, n in world axes, with the new direction", ...axes, ...named, arrow(centre, at(direction), "path"),
       ...(isUnit ? [] : [draw("g", { class: "dash" }, arrow(centre, at(short), "no"))]),
-      text([6, 170], isUnit ? "thick: the new direction" : "dashed: the direction if t and b were not normalised", "small"));
+      text([6, 170], isUnit ? "thick: the new direction" : "dashed: the direction if t and b were not normalized", "small"));
   },
   offset(direction, normal, offset) {
     const cosine = dot(direction, normal), sine = Math.sqrt(Math.max(0, 1 - cosine * cosine)), point = [110, 112], start = [110, 62];

@@ -17,7 +17,7 @@ function stepsOf(run, story) {
     say: [
       rejected === 0 ? "The first point drawn in the cube lies in the sphere, so it is taken."
         : `${rejected} of ${tries.length} points drawn in the cube ${rejected === 1 ? "lies" : "lie"} outside the sphere, so ${rejected === 1 ? "it is" : "they are"} rejected. The last one is taken.`,
-      "Normalised, it is the direction in which the photon leaves the light.",
+      "Normalized, it is the direction in which the photon leaves the light.",
     ],
     values: { x: digits(x), y: digits(y), z: digits(z), length_squared: digits(lengthSquared([x, y, z])), direction: vectorText(direction) },
     more: tries.map((xyz, i) => [`try ${i + 1}`, `${vectorText(xyz)}, x² + y² + z² = ${digits(lengthSquared(xyz))}: ${i === rejected ? "taken" : "rejected"}`]),
@@ -103,7 +103,7 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
   return [{
     name: "hemisphere",
     say: [
-      `u1 sets how far from the centre of the disk: r is ${about(r)}. u2 sets the angle: theta is ${(u2 * 360).toFixed(1)}°.`,
+      `u1 sets how far from the center of the disk: r is ${about(r)}. u2 sets the angle: theta is ${(u2 * 360).toFixed(1)}°.`,
       `Lifted to the hemisphere, the point has height ${about(up)}: the new direction is ${degrees(up)} from the normal.`,
     ],
     values: {
@@ -118,8 +118,8 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
     say: [
       isX ? `|n · x| is ${about(Math.abs(normal[0]))}, so the x axis ${axisName} builds t.`
         : `|n · x| is ${about(Math.abs(normal[0]))}, too close to 1: n is parallel to the x axis, so ${axisName} builds t.`,
-      isUnit ? "Here n × axis has length 1 already, so normalising t and b changes nothing."
-        : `n × axis has length ${about(bare)} before it is normalised. If t and b kept this length, the ray would leave ${degrees(bareCosine)} from the normal, not ${degrees(up)}. Over many photons, directions crowd around the normal.`,
+      isUnit ? "Here n × axis has length 1 already, so normalizing t and b changes nothing."
+        : `n × axis has length ${about(bare)} before it is normalized. If t and b kept this length, the ray would leave ${degrees(bareCosine)} from the normal, not ${degrees(up)}. Over many photons, directions crowd around the normal.`,
     ],
     values: { normal: vectorText(normal), is_parallel: String(!isX), axis: axisName, tangent: vectorText(tangent), bitangent: vectorText(bitangent) },
     more: [["t", vectorText(tangent)], ["b", vectorText(bitangent)], ["n", vectorText(normal)], ["|n × axis|", digits(round(bare))]],

@@ -173,7 +173,7 @@ class View {
     this.setLayer(name, lines.length, [[new Float32Array(numbers), 3, 48, 0], [null, 3, 48, 12], [null, 4, 48, 24], [null, 2, 48, 40]], 1);
   }
 
-  /** Sets the camera: what it turns around, from where (radians), how far, how wide (vertical, for 4:3). */
+  /** Sets the camera: what it turns around, from where (radians), how far, how high its picture is. */
   look(camera) {
     Object.assign(this.camera ??= {}, camera);
     const limit = Math.PI / 2 - 0.001;
@@ -205,7 +205,7 @@ class View {
   /** Half the height of the picture at distance 1. A narrow view is made higher, so that it shows all of a 4:3 picture. */
   get halfHeight() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    return Math.tan(this.camera.field / 2) * Math.max(1, (4 / 3) / (width / height));
+    return this.camera.halfHeight * Math.max(1, (4 / 3) / (width / height));
   }
 
   /** World to clip space, column by column. */

@@ -19,6 +19,9 @@ const TOLERANCE: f32 = 1e-4;
 /// A page shows at most so many records that only the other list has, evenly thinned.
 const MOST_EXTRA: usize = 500_000;
 
+/// A record closer than this to the hit before it, in world units, tells no direction.
+const NEAREST: f32 = 0.01;
+
 /// What the other list is.
 #[derive(Clone, Debug)]
 pub enum Other {
@@ -78,12 +81,7 @@ pub(crate) struct Overlay {
 
 impl Comparison {
     /// Compares `submission` with `reference`, the list of `run`.
-    pub fn new(
-        other: Other,
-        reference: PhotonList,
-        submission: PhotonList,
-        run: &Run,
-    ) -> Self {
+    pub fn new(other: Other, reference: PhotonList, submission: PhotonList, run: &Run) -> Self {
         let tolerance = TOLERANCE * run.placement.length_to_world(scene_size(run.scene()));
         let report = compare(&reference, &submission, Some(run), tolerance, 0.0);
         let reference = with_bounces(&reference).into_owned();
@@ -140,7 +138,8 @@ impl Comparison {
         let recorded = divergence.bounce.unwrap_or(1).min(story.hits.len());
         // What went wrong happened at the hit before the record.
         let before = recorded.saturating_sub(1);
-        let starts_elsewhere = divergence.reason.as_ref().is_some_and(|reason| reason.contains("start"));
+        let starts_elsewhere =
+            divergence.reason.as_ref().is_some_and(|reason| reason.contains("start"));
         let (bounce, name) = match self.section()? {
             Section::PhotonEmission => (0, "emission"),
             Section::PhotonStorage => (recorded.min(story.hits.len().saturating_sub(1)), "stored"),
@@ -238,11 +237,14 @@ impl Comparison {
         };
         let divergence = first_divergence.as_ref();
         let found = divergence.and_then(|divergence| divergence.reason.clone()).unwrap_or_default();
-        let doubt = if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
+        let doubt =
+            if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
         let (kind, reason, advice) = match &self.other {
             Other::Submission(_) if found.is_empty() => ("submission", String::new(), ""),
             Other::Submission(_) => ("submission", sentence(&(found + doubt)), ""),
-            Other::Misreading { title, advice, .. } => ("misreading", sentence(title), advice.as_str()),
+            Other::Misreading { title, advice, .. } => {
+                ("misreading", sentence(title), advice.as_str())
+            }
         };
         json!({
             "kind": kind,
@@ -279,8 +281,10 @@ fn values(
         rows.push(["position".to_owned(), a, b]);
     }
     let before = bounce.checked_sub(1).and_then(|before| story.hits.get(before));
-    if let (Some(before), Some(submission)) = (before, submission) {
-        let way = (submission.position - before.point()).normalize();
+    // From a point as close as rounding, the way tells no direction.
+    let way = before.zip(submission).map(|(before, other)| other.position - before.point());
+    if let (Some(before), Some(way)) = (before, way.filter(|way| way.length() > NEAREST)) {
+        let way = way.normalize();
         let normal = Vec3::from_array(before.normal);
         let angle = |way: Vec3| format!("{:.1}°", way.angle_between(normal).to_degrees());
         let expected = before.direction.map(Vec3::from_array);

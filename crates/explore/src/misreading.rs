@@ -51,8 +51,8 @@ pub fn trace(name: &str, run: &Run) -> Option<(Other, Vec<PhotonRecord>)> {
         // How often a photon hits the surface it leaves depends on rounding, so it is traced as it is.
         let reading = Reading { offset: Offset::None, ..run.reading };
         let mut records = Vec::new();
-        let traced: Result<_, std::convert::Infallible> =
-            Run { reading, ..run.clone() }.trace_list(all, |piece, _| {
+        let traced: Result<_, std::convert::Infallible> = Run { reading, ..run.clone() }
+            .trace_list(all, |piece, _| {
                 records.extend_from_slice(piece);
                 Ok(())
             });

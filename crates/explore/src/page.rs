@@ -28,8 +28,7 @@ const SCRIPT: &str = concat!(
 /// The page of `exploration`.
 pub fn page(exploration: &Exploration) -> String {
     let paths = Paths::new(exploration);
-    let (meta, data) =
-        rayon::join(|| meta(exploration, &paths), || paths.columns.to_base64());
+    let (meta, data) = rayon::join(|| meta(exploration, &paths), || paths.columns.to_base64());
     let policy = format!(
         "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
         hash(SCRIPT),
@@ -58,7 +57,8 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
     let mut rest = template;
     for (name, part) in parts {
         let place = format!("{{{name}}}");
-        let (before, after) = rest.split_once(&place).expect("the template has every part once, in order");
+        let (before, after) =
+            rest.split_once(&place).expect("the template has every part once, in order");
         page += before;
         page += part;
         rest = after;
@@ -83,9 +83,9 @@ fn meta(exploration: &Exploration, paths: &Paths) -> String {
         .chain([total])
         .map(|row| {
             let whole = json!({ "stored": row.stored, "expected": row.expected, "z": row.z });
-            let cells = row.by_bounce.iter().take(3).chain([&row.late]).map(|cell| {
-                json!({ "stored": cell.stored, "expected": cell.expected, "z": cell.z })
-            });
+            let cells = row.by_bounce.iter().take(3).chain([&row.late]).map(
+                |cell| json!({ "stored": cell.stored, "expected": cell.expected, "z": cell.z }),
+            );
             json!({ "name": row.name, "cells": cells.chain([whole]).collect::<Vec<_>>() })
         })
         .collect();

@@ -235,7 +235,8 @@ fn faces(run: &Run) -> Vec<Face> {
             // t is at a right angle to the axis from which it was built.
             let is_built_from = |axis: Vec3| {
                 let tangent = normal.cross(axis);
-                tangent.length() > 0.0 && tangent.normalize().distance(frame.x_axis.normalize()) < 1e-3
+                tangent.length() > 0.0
+                    && tangent.normalize().distance(frame.x_axis.normalize()) < 1e-3
             };
             let axis = [Vec3::X, Vec3::Y].into_iter().find(|axis| is_built_from(*axis));
             let axis = axis.unwrap_or(run.reading.fallback_axis);
@@ -250,7 +251,8 @@ fn faces(run: &Run) -> Vec<Face> {
                 triangles: group
                     .iter()
                     .map(|triangle| {
-                        let corners = triangle.vertices.map(|corner| run.placement.to_world(corner));
+                        let corners =
+                            triangle.vertices.map(|corner| run.placement.to_world(corner));
                         let mut numbers = [0.0; 9];
                         for (to, corner) in numbers.chunks_exact_mut(3).zip(corners) {
                             to.copy_from_slice(&corner.to_array());
@@ -266,16 +268,16 @@ fn faces(run: &Run) -> Vec<Face> {
 }
 
 /// The handout's camera, or one that sees all of another scene: what it turns around, how far from
-/// it, and its vertical field of view, in radians.
+/// it, in what direction (radians), and half the height of its picture at distance 1.
 fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
     let camera = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
-    let field = 2.0 * camera.half_height.atan();
+    let half_height = camera.half_height;
     if is_handout {
         // It turns around the point before it that is nearest to the middle of the box.
         let distance = -camera.position.dot(camera.forward);
         let target = (camera.position + distance * camera.forward).to_array();
         return json!({
-            "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0, "field": field
+            "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0, "halfHeight": half_height
         });
     }
     let corners = || {
@@ -285,7 +287,7 @@ fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
     let low = corners().fold(Vec3::INFINITY, Vec3::min);
     let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
     let target = ((low + high) / 2.0).to_array();
-    json!({ "target": target, "distance": 2.8 * size, "yaw": 0.5, "pitch": -0.35, "field": field })
+    json!({ "target": target, "distance": 2.8 * size, "yaw": 0.5, "pitch": -0.35, "halfHeight": half_height })
 }
 
 impl Comparison {

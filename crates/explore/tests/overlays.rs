@@ -50,7 +50,8 @@ fn every_misreading_opens_where_it_differs() {
         };
         assert_ne!(of(&reference.records), of(&records), "{name}: photon {photon}");
         // What is counted is what is drawn.
-        let kinds = browser.run("[0, 1, 2, 3].map((kind) => page.kinds.reduce((n, k) => n + (k === kind), 0))");
+        let kinds = browser
+            .run("[0, 1, 2, 3].map((kind) => page.kinds.reduce((n, k) => n + (k === kind), 0))");
         let counts = browser.run("page.run.comparison.counts");
         assert_eq!(kinds[0], counts["matched"], "{name}");
         assert_eq!(kinds[1], counts["missing"], "{name}");
@@ -68,7 +69,8 @@ fn a_submission_shows_where_it_parts() {
     let reference = traced("");
     // One photon moved, one missing, one extra, in a list that tells only positions.
     let mut list = reference.list();
-    list.columns = Columns { intensity: false, to_light: false, photon: false, bounce: false, surface: false };
+    list.columns =
+        Columns { intensity: false, to_light: false, photon: false, bounce: false, surface: false };
     list.records[10].position.x += 0.2;
     list.records.remove(500);
     let mut extra = list.records[900];
@@ -95,7 +97,10 @@ fn a_submission_shows_where_it_parts() {
     let same = Comparison::new(other, reference.list(), reference.list(), &reference.run);
     let page = write_page("same", &reference.exploration(Some(&same)).page());
     browser.open(&page, "");
-    assert_eq!(browser.text("document.getElementById('verdict').textContent"), "same.csv: identical");
+    assert_eq!(
+        browser.text("document.getElementById('verdict').textContent"),
+        "same.csv: identical"
+    );
     assert_eq!(browser.run("document.getElementById('divergence').hidden"), true);
     browser.has_been_quiet();
 }

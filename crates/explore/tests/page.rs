@@ -3,12 +3,15 @@
 mod browser;
 mod support;
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::Instant;
 
 use browser::{Browser, launch};
 use compare::explain::{Hit, Story, explain};
+use photon_mapping::assignment8;
+use photon_mapping::scene::ray::{IntersectionState, Ray};
 use serde_json::{Value, json};
 use support::{Traced, float, write_page};
 
@@ -34,6 +37,25 @@ const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
     values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => [v.dataset.name, v.textContent])),
     more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, t.nextSibling.textContent])) }; })";
 
+/// The pixels of all photons that the handout's camera sees.
+fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
+    let camera = assignment8::create_camera(640, 480);
+    let in_sight = traced.records.iter().filter_map(|record| {
+        let way = record.position - camera.position;
+        let mut state = IntersectionState::new();
+        let ray = Ray::new(camera.position, way.normalize());
+        let is_hit = traced.run.scene().trace(&ray, Some(&mut state));
+        if !is_hit || (state.intersection_t - way.length()).abs() > 0.01 {
+            return None;
+        }
+        let depth = way.dot(camera.forward);
+        let across = way.dot(camera.right) / (depth * camera.half_width);
+        let upwards = way.dot(camera.up) / (depth * camera.half_height);
+        Some((((across + 1.0) * 320.0).round() as i64, ((1.0 - upwards) * 240.0).round() as i64))
+    });
+    in_sight.collect()
+}
+
 #[test]
 fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let Some(browser) = open_handout("") else { return };
@@ -42,7 +64,7 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     browser.run("const colors = document.getElementById('colors'); colors.value = 'red'; colors.dispatchEvent(new Event('input'))");
     browser.click_on("#home");
     // The path and its labels would hide dots.
-    browser.run("page.view.setLines('path', []); page.view.setMarks([]); document.getElementById('labels').remove()");
+    browser.run("page.view.setLines('path', []); page.view.setMarks([]); document.getElementById('labels').style.display = 'none'");
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
     let place = browser.run("(() => { const r = document.getElementById('view').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; })()");
@@ -61,19 +83,27 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
         let around = |d: i64| (-1..=1).map(move |e| (d, e));
         (-1..=1).flat_map(around).any(|(dx, dy)| is_red(i64::from(x) + dx, i64::from(y) + dy))
     };
-    let red: Vec<_> =
-        picture.enumerate_pixels().filter(|(_, _, p)| p.0[0] == 255).map(|(x, y, _)| (x, y)).collect();
+    let red: Vec<_> = picture
+        .enumerate_pixels()
+        .filter(|(_, _, p)| p.0[0] == 255)
+        .map(|(x, y, _)| (x, y))
+        .collect();
     let found = red.iter().filter(|(x, y)| near(*x, *y, &is_drawn)).count();
     assert!(red.len() > 10_000, "{}", red.len());
     assert!(found * 100 >= red.len() * 99, "{found} of {}", red.len());
-    // And no dots elsewhere.
-    let in_picture = |x: i64, y: i64| {
-        (0..640).contains(&x) && (0..480).contains(&y) && picture.get_pixel(x as u32, y as u32).0[0] == 255
-    };
-    let drawn: Vec<_> = (0..480).flat_map(|y| (0..640).map(move |x| (x, y))).filter(|(x, y)| is_drawn(*x, *y)).collect();
-    let right = drawn.iter().filter(|(x, y)| near(*x as u32, *y as u32, &in_picture)).count();
-    eprintln!("{found} of {} red pixels drawn; {right} of {} drawn pixels red", red.len(), drawn.len());
-    assert!(right * 100 >= drawn.len() * 97, "{right} of {}", drawn.len());
+    // And no dots but those of photons in sight. The picture misses some of these: seen at a grazing
+    // angle, a dot is narrower than a pixel.
+    let in_sight = dots_in_sight(&handout().0);
+    let all = (0..480).flat_map(|y| (0..640).map(move |x| (x, y)));
+    let drawn: Vec<_> = all.filter(|(x, y)| is_drawn(*x, *y)).collect();
+    let is_in_sight = |x: i64, y: i64| in_sight.contains(&(x, y));
+    let right = drawn.iter().filter(|(x, y)| near(*x as u32, *y as u32, &is_in_sight)).count();
+    eprintln!(
+        "{found} of {} red pixels drawn; {right} of {} drawn pixels at a photon in sight",
+        red.len(),
+        drawn.len()
+    );
+    assert!(right * 100 >= drawn.len() * 98, "{right} of {}", drawn.len());
     browser.has_been_quiet();
 }
 
@@ -102,11 +132,14 @@ fn vector(xyz: &[f32; 3]) -> String {
 /// Checks all that the panel shows at the hit `hit`, whose steps are `steps`.
 fn check_hit(hit: &Hit, steps: &[&Value]) {
     let step = |name: &str| -> Value {
-        let found = steps.iter().find(|step| step["link"].as_str().is_some_and(|link| link.ends_with(&format!("step={name}"))));
+        let found = steps.iter().find(|step| {
+            step["link"].as_str().is_some_and(|link| link.ends_with(&format!("step={name}")))
+        });
         (*found.unwrap_or_else(|| panic!("no step {name} at bounce {}", hit.bounce))).clone()
     };
     let show = |names: &[&str]| names.iter().map(|name| step(name)).collect::<Vec<_>>();
-    let [at_hit, stored, roulette] = show(&["hit", "stored", "roulette"]).try_into().expect("three");
+    let [at_hit, stored, roulette] =
+        show(&["hit", "stored", "roulette"]).try_into().expect("three");
     assert_eq!(at_hit["more"]["t"], hit.t.to_string());
     assert_eq!(at_hit["more"]["point"], vector(&hit.position));
     assert_eq!(at_hit["values"]["intersection_point"], vector(&hit.position));
@@ -143,10 +176,21 @@ fn check_story(story: &Story, steps: &Value) {
     for (i, xyz) in tries.iter().enumerate() {
         let told = emission["more"][format!("try {}", i + 1)].as_str().expect("a try");
         let [x, y, z] = *xyz;
-        assert!(told.starts_with(&format!("{}, x² + y² + z² = {}: ", vector(xyz), x * x + y * y + z * z)), "{told}");
+        assert!(
+            told.starts_with(&format!(
+                "{}, x² + y² + z² = {}: ",
+                vector(xyz),
+                x * x + y * y + z * z
+            )),
+            "{told}"
+        );
     }
     for hit in &story.hits {
-        let of_bounce = |step: &&Value| step["link"].as_str().is_some_and(|link| link.contains(&format!("&bounce={}&", hit.bounce)));
+        let of_bounce = |step: &&Value| {
+            step["link"]
+                .as_str()
+                .is_some_and(|link| link.contains(&format!("&bounce={}&", hit.bounce)))
+        };
         check_hit(hit, &steps.iter().filter(of_bounce).collect::<Vec<_>>());
     }
 }
@@ -164,7 +208,9 @@ fn the_panel_has_the_numbers_of_explain() {
     some.extend(photons.iter().step_by(photons.len() / 1000));
     for some in some.chunks(50) {
         let list = json!(some);
-        let steps = browser.run(&format!("{list}.map((photon) => {{ page.open(photon, 0, 'emission'); return {ALL_STEPS}; }})"));
+        let steps = browser.run(&format!(
+            "{list}.map((photon) => {{ page.open(photon, 0, 'emission'); return {ALL_STEPS}; }})"
+        ));
         for (photon, steps) in some.iter().zip(steps.as_array().expect("a list")) {
             check_story(&explain(&run.run, *photon).expect("emitted"), steps);
         }
@@ -177,8 +223,14 @@ fn a_link_restores_its_step() {
     let Some(browser) = open_handout("#photon=73&bounce=1&step=roulette") else { return };
     let title = || browser.text("document.getElementById('step-title').textContent");
     assert_eq!(title(), "Photon Scattering/Absorption");
-    assert_eq!(browser.text("document.querySelector('#names [aria-current]').textContent"), "Roulette");
-    assert_eq!(browser.text("document.querySelector('#path [aria-current]').textContent"), "1 rightWall");
+    assert_eq!(
+        browser.text("document.querySelector('#names [aria-current]').textContent"),
+        "Roulette"
+    );
+    assert_eq!(
+        browser.text("document.querySelector('#path [aria-current]').textContent"),
+        "1 rightWall"
+    );
     // Going on changes the address, and the address alone brings back what was there.
     browser.press("ArrowLeft");
     browser.wait_for("location.hash === '#photon=73&bounce=1&step=stored'");
@@ -188,7 +240,11 @@ fn a_link_restores_its_step() {
     // A photon that the page does not have is named, with the command that shows it.
     browser.run("location.hash = '#photon=74'");
     browser.wait_for("!document.getElementById('no-story').hidden");
-    assert!(browser.text("document.getElementById('no-story').textContent").contains("explore --photon 74"));
+    assert!(
+        browser
+            .text("document.getElementById('no-story').textContent")
+            .contains("explore --photon 74")
+    );
     browser.run("location.hash = '#photon=99999999999'");
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");
     browser.has_been_quiet();
@@ -229,17 +285,26 @@ fn the_keyboard_alone_is_enough() {
         browser.press("Tab");
         reached.push(browser.text("document.activeElement.id || document.activeElement.tagName"));
     }
-    for id in ["view", "home", "centre", "colors", "walls", "alone", "dots", "previous", "photon", "next", "play", "slider"] {
+    for id in [
+        "view", "home", "centre", "colors", "walls", "alone", "dots", "previous", "photon", "next",
+        "play", "slider",
+    ] {
         assert!(reached.iter().any(|name| name == id), "{id}: {reached:?}");
     }
     // A number is typed and Enter opens it; its arrows are the field's own.
-    browser.run("document.getElementById('photon').focus(); document.getElementById('photon').select()");
+    browser.run(
+        "document.getElementById('photon').focus(); document.getElementById('photon').select()",
+    );
     "253".chars().for_each(|digit| browser.press(&digit.to_string()));
     browser.press("Enter");
     assert_eq!(link(), "#photon=253&bounce=0&step=emission");
     // A cell of the table lights its photons, and Enter keeps them alone.
     browser.run("document.querySelector('#table td button').focus()");
-    let states = |state: u8| float(&browser.run(&format!("page.looks.filter((look, i) => i % 2 === 1 && look === {state}).length"))) as u64;
+    let states = |state: u8| {
+        float(&browser.run(&format!(
+            "page.looks.filter((look, i) => i % 2 === 1 && look === {state}).length"
+        ))) as u64
+    };
     let of_cell = handout().0.table.0[0].by_bounce[0].stored;
     assert_eq!(states(2), of_cell);
     browser.press("Enter");
@@ -261,7 +326,8 @@ fn table_and_filters_show_what_they_say() {
     let shown = || browser.text("document.getElementById('shown').textContent");
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
     let stored = surfaces[1].by_bounce[1].stored;
-    let number = format!("{},{:03} photons shown: rightWall, bounce 2.", stored / 1000, stored % 1000);
+    let number =
+        format!("{},{:03} photons shown: rightWall, bounce 2.", stored / 1000, stored % 1000);
     assert_eq!(shown(), number);
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
     browser.run("document.querySelector('.filters').open = true");
@@ -319,8 +385,13 @@ fn page_of_the_default_run_is_small_and_quick() {
     let frames = float(&browser.run("(async () => { const start = performance.now(); let frames = 0; while (performance.now() - start < 2000) { \
         page.view.look({ yaw: page.view.camera.yaw + 0.02 }); await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))); frames++; } return 1000 * frames / (performance.now() - start); })()"));
     let click = float(&browser.run("(() => { const start = performance.now(); page.open(253, 0, 'hit'); page.view.drawNow(); page.view.gl.finish(); return performance.now() - start; })()"));
-    eprintln!("page {size} bytes, first frame {first:.0} ms, {frames:.0} frames/s, a click to its path and story {click:.1} ms");
+    eprintln!(
+        "page {size} bytes, first frame {first:.0} ms, {frames:.0} frames/s, a click to its path and story {click:.1} ms"
+    );
     // Generous beside the targets of 1500 ms, 20 frames/s and 50 ms: other tests run at once.
-    assert!(first < 6000.0 && frames > 5.0 && click < 250.0, "{first} ms, {frames} frames/s, {click} ms");
+    assert!(
+        first < 6000.0 && frames > 5.0 && click < 250.0,
+        "{first} ms, {frames} frames/s, {click} ms"
+    );
     browser.has_been_quiet();
 }

@@ -26,7 +26,10 @@ fn the_port_has_all_steps() {
 #[test]
 fn a_renamed_function_is_named() {
     let message = error("fn tangent_frame(", "fn frame(");
-    assert_eq!(message, "src/rendering/sampling.rs: expected a function 'tangent_frame', found none");
+    assert_eq!(
+        message,
+        "src/rendering/sampling.rs: expected a function 'tangent_frame', found none"
+    );
 }
 
 #[test]
@@ -34,7 +37,9 @@ fn a_missing_step_comment_is_named() {
     let message = error("// Photon Scattering/Absorption", "// Roulette");
     assert!(message.starts_with("src/rendering/photon_mapping_renderer.rs:"), "{message}");
     assert!(
-        message.ends_with("expected the step comment '// Photon Scattering/Absorption' in 'trace_photon'"),
+        message.ends_with(
+            "expected the step comment '// Photon Scattering/Absorption' in 'trace_photon'"
+        ),
         "{message}"
     );
 }

@@ -2,6 +2,7 @@
 //!
 //! The crates that do this bring 80 others and a minute of compilation, most of it for a Rust type
 //! for each of the protocol's messages. These tests need nine of them, and `serde_json` is here.
+#![allow(dead_code, reason = "no test uses all of it")]
 
 use std::cell::{Cell, RefCell};
 use std::io::{BufRead, BufReader, Cursor, Write};
@@ -154,7 +155,8 @@ impl Browser {
 
     /// Waits until what was asked for is drawn and no camera flies.
     pub fn settle(&self) {
-        let frame = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
+        let frame =
+            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
         self.run(frame);
         // While the camera moves, a slow machine draws only some of the dots.
         self.wait_for("!window.page?.view || (page.view.part === 1 && performance.now() - (page.view.moved ?? 0) > 300)");
@@ -180,8 +182,7 @@ impl Browser {
     /// Clicks at the CSS pixel (`x`, `y`) of the window.
     pub fn click(&self, x: f64, y: f64) {
         for kind in ["mouseMoved", "mousePressed", "mouseReleased"] {
-            let event =
-                json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
+            let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
             self.call("Input.dispatchMouseEvent", event);
         }
     }
@@ -198,7 +199,10 @@ impl Browser {
     /// Touches the CSS pixel (`x`, `y`) of the window.
     pub fn tap(&self, x: f64, y: f64) {
         let points = json!([{ "x": x, "y": y }]);
-        self.call("Input.dispatchTouchEvent", json!({ "type": "touchStart", "touchPoints": points }));
+        self.call(
+            "Input.dispatchTouchEvent",
+            json!({ "type": "touchStart", "touchPoints": points }),
+        );
         self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
     }
 

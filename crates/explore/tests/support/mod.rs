@@ -1,4 +1,5 @@
 //! A run of the reference with all that a page of it needs.
+#![allow(dead_code, reason = "no test uses all of it")]
 
 use std::path::{Path, PathBuf};
 
