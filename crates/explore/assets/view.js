@@ -184,7 +184,7 @@ class View {
 
   /** While the camera moves, draws no more dots than are drawn in time; all of them as soon as it rests. */
   keepPace() {
-    const now = performance.now(), since = now - (this.drawn ?? 0), isMoving = now - (this.moved ?? 0) < 150;
+    const now = performance.now(), since = now - (this.drawn ?? 0), isMoving = (this.moved ?? 0) > (this.drawn ?? 0) || now - (this.moved ?? 0) < 150;
     if (isMoving && since < 1000) this.pace = Math.min(Math.max(this.pace * Math.min(Math.max(42 / since, 0.6), 1.15), 0.02), 1);
     this.part = isMoving ? this.pace : 1;
     this.drawn = now;
