@@ -10,9 +10,11 @@ use explore::misreading;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
 use serde_json::json;
 use support::{Traced, float, write_page};
 use variants::run::Run;
+use variants::section::Section;
 
 const PHOTONS: u64 = 60_000;
 
@@ -32,7 +34,7 @@ fn every_misreading_opens_where_it_differs() {
     for name in names {
         let reference = traced(name);
         let (other, records) = misreading::trace(name, &reference.run).expect("it is in the table");
-        let Other::Misreading { section, .. } = &other else { panic!("{name} is a misreading") };
+        let Other::Misreading { section, .. } = other else { panic!("{name} is a misreading") };
         let title = section.title();
         let list = PhotonList { records: records.clone(), ..reference.list() };
         let comparison = Comparison::new(other, reference.list(), list, &reference.run);
@@ -42,13 +44,24 @@ fn every_misreading_opens_where_it_differs() {
         assert_eq!(text("verdict"), format!("{name}: {title}"));
         assert_eq!(text("step-title"), title, "{name}");
         assert_eq!(browser.run("document.getElementById('sides').hidden"), false, "{name}");
-        // The photon that is open stores something else in the two lists.
+        // The photon that is open stores something else in the two lists, and the step is the one that
+        // makes the first difference.
         let photon = float(&browser.run("page.photon")) as u32;
-        let of = |list: &[photon_mapping::photon_list::PhotonRecord]| {
+        let of = |list: &[PhotonRecord]| -> Vec<_> {
             let of_photon = list.iter().filter(|record| record.photon == photon);
-            of_photon.map(|record| record.position.to_array().map(f32::to_bits)).collect::<Vec<_>>()
+            of_photon.map(|record| record.position).collect()
         };
-        assert_ne!(of(&reference.records), of(&records), "{name}: photon {photon}");
+        let (ours, theirs) = (of(&reference.records), of(&records));
+        let pairs = ours.iter().zip(&theirs);
+        let same = pairs.take_while(|(a, b)| a.distance(**b) < 1e-3).count();
+        assert!(same < ours.len().max(theirs.len()), "{name}: photon {photon}");
+        let expected = match section {
+            Section::PhotonEmission => 0,
+            Section::PhotonStorage if name == "direct-stored" => 0,
+            Section::PhotonStorage => same + 1,
+            _ => same,
+        };
+        assert_eq!(browser.run("page.steps[page.at].bounce"), expected, "{name}: photon {photon}");
         // What is counted is what is drawn.
         let kinds = browser
             .run("[0, 1, 2, 3].map((kind) => page.kinds.reduce((n, k) => n + (k === kind), 0))");
