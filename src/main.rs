@@ -4,9 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use photon_mapping::assignment8::{
-    HEIGHT, WIDTH, create_camera, create_renderer, create_scene,
-};
+use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_renderer, create_scene};
 use photon_mapping::photon_list::{ListHash, PhotonRecord, ply_header, records, write_rows};
 use photon_mapping::rendering::image_writer::take_picture;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
@@ -95,8 +93,8 @@ fn sum(cells: &[(u64, f64)]) -> (u64, f64) {
 }
 
 fn row(name: &str, cells: &[(u64, f64)]) -> String {
-    let cells = cells.iter().map(|(stored, expected)| {
-        format!("{:>18}", format!("{stored} / {expected:.1}"))
-    });
+    let cells = cells
+        .iter()
+        .map(|(stored, expected)| format!("{:>18}", format!("{stored} / {expected:.1}")));
     format!("{name:10}{}\n", cells.collect::<String>())
 }

@@ -28,7 +28,8 @@ impl Bounds {
     /// The boxes of `triangles`, in order.
     pub(super) fn of_mesh_objects(triangles: &[Triangle]) -> Vec<Self> {
         let mut first = 0;
-        let is_same_mesh = |a: &Triangle, b: &Triangle| a.parent_mesh_object == b.parent_mesh_object;
+        let is_same_mesh =
+            |a: &Triangle, b: &Triangle| a.parent_mesh_object == b.parent_mesh_object;
         let of_mesh = triangles.chunk_by(is_same_mesh).map(|of_mesh| {
             let corners = || of_mesh.iter().flat_map(|triangle| triangle.vertices);
             first += of_mesh.len();

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use oracle::Accuracy;
-use oracle::table::ExpectedTable;
-use variants::run::Run;
-use variants::reading::Reading;
-use variants::sampler::Sampler;
 use model::facets::facets;
+use oracle::Accuracy;
 use oracle::summary::{SurfaceSummary, Tally};
+use oracle::table::ExpectedTable;
+use variants::reading::Reading;
+use variants::run::Run;
+use variants::sampler::Sampler;
 
 /// Expecting takes seconds at this many faces, and grows with their square; tracing does not.
 const MOST_FACETS_TO_EXPECT: usize = 40;
@@ -32,11 +32,7 @@ pub fn beside_expected(
 }
 
 /// What the photons of a run are expected to do, where that is known or soon computed.
-fn expected(
-    is_built_in: bool,
-    run: &Run,
-    photons: &Range<u64>,
-) -> Option<ExpectedTable> {
+fn expected(is_built_in: bool, run: &Run, photons: &Range<u64>) -> Option<ExpectedTable> {
     let scene = run.scene();
     if run.reading != Reading::REFERENCE {
         return None;

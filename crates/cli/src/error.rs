@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use photon_list::error::ListError;
 use model::obj::ModelError;
+use photon_list::error::ListError;
 
 /// Why a command could not be carried out.
 #[derive(Debug, thiserror::Error)]

@@ -2,14 +2,14 @@
 
 use clap::Args;
 
+use super::beside_expected::shares;
 use super::error::{CliError, print};
 use super::run_args::SceneArgs;
 use oracle::Accuracy;
 use oracle::table::ExpectedTable;
+use oracle::text_table::align;
 use photon_mapping::assignment8::{PHOTON_COUNT, SEED};
 use variants::run::Run;
-use super::beside_expected::shares;
-use oracle::text_table::align;
 
 /// The options of `expect`.
 #[derive(Debug, Args)]

@@ -13,10 +13,8 @@ use serde::Serialize;
 use super::error::{CliError, print};
 use super::output::OutputFile;
 use super::values;
-use photon_mapping::assignment8;
 use grading::class::grade_one;
 use grading::gradescope;
-use variants::hypotheses::misreadings;
 use grading::intake::{HandedIn, collect};
 use grading::judge_list::Expectations;
 use grading::page::{Pages, index::index};
@@ -26,6 +24,8 @@ use grading::signature::{Effort, Signatures};
 use grading::submission::{Settings, grade};
 use grading::text;
 use grading::verdict::Grade;
+use photon_mapping::assignment8;
+use variants::hypotheses::misreadings;
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
 const MANY_BOUNCES: i32 = 20;

@@ -10,14 +10,14 @@ use serde::Deserialize;
 use super::error::CliError;
 use super::output::OutputFile;
 use super::run_summary::{Summary, print_summary};
+use oracle::summary::{Counts, Tally};
 use oracle::table::ExpectedTable;
 use photon_list::error::ListError;
 use photon_list::run::RunPart;
 use photon_list::writer::{Format, ListWriter};
-use photon_mapping::photon_list::ListHash;
 use photon_list::{ply, reader};
+use photon_mapping::photon_list::ListHash;
 use variants::run::is_of_assignment8;
-use oracle::summary::{Counts, Tally};
 
 /// Records are handed on in pieces of this many.
 const RECORDS_AT_ONCE: usize = 4096;

@@ -14,19 +14,19 @@ use super::progress;
 use super::run_args::RunArgs;
 use super::run_summary::{Seconds, Summary, print_summary};
 use super::values;
-use photon_mapping::assignment8;
-use fast::trace::Difference;
+use fast::dots::Dots;
 use fast::lanes::picture::{CheckedPicture, take_picture};
 use fast::lanes::width::Width;
-use photon_list::reader;
-use photon_mapping::photon_list::PhotonRecord;
-use variants::run::Run;
-use photon_list::writer::{Format, ListWriter};
-use photon_mapping::photon_list::ListHash;
-use fast::dots::Dots;
-use variants::sampler::Sampler;
-use photon_mapping::scene::Scene;
+use fast::trace::Difference;
 use oracle::summary::Tally;
+use photon_list::reader;
+use photon_list::writer::{Format, ListWriter};
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::ListHash;
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::scene::Scene;
+use variants::run::Run;
+use variants::sampler::Sampler;
 
 /// The options of `render`.
 #[derive(Debug, Args)]
@@ -130,9 +130,9 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let (lanes, row_done) = (Width::widest(), || progress.inc(1));
     let CheckedPicture { mut picture, difference } =
         take_picture(&run.renderer, lanes, &camera, width, height, row_done);
-    summary.differences_from_port.extend(
-        difference.map(|(column, row)| format!("the pixel in column {column}, row {row}")),
-    );
+    summary
+        .differences_from_port
+        .extend(difference.map(|(column, row)| format!("the pixel in column {column}, row {row}")));
     dots.draw(&mut picture);
     progress.finish_and_clear();
     summary.seconds.picture = start.elapsed().as_secs_f64();
@@ -152,10 +152,7 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
 }
 
 /// The photons to trace.
-fn photons(
-    arguments: &RenderArgs,
-    run: &Run,
-) -> Result<Range<u64>, CliError> {
+fn photons(arguments: &RenderArgs, run: &Run) -> Result<Range<u64>, CliError> {
     let emitted = run.renderer.emitted();
     if emitted == 0 {
         return Err(CliError::Argument(

@@ -6,12 +6,12 @@ use clap::Args;
 
 use super::error::CliError;
 use super::values;
-use photon_mapping::assignment8;
-use model::placement::Placement;
-use variants::run::Run;
-use variants::reading::Reading;
-use photon_mapping::scene::Scene;
 use model::obj::{self, ModelLight};
+use model::placement::Placement;
+use photon_mapping::assignment8;
+use photon_mapping::scene::Scene;
+use variants::reading::Reading;
+use variants::run::Run;
 
 /// Which scene is meant.
 #[derive(Debug, Args)]

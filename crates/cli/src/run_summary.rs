@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::error::{CliError, print};
-use photon_list::run::RunPart;
 use oracle::summary::{Counts, SurfaceSummary, table};
+use photon_list::run::RunPart;
 
 /// What a run did.
 #[derive(Debug, Default, Serialize)]

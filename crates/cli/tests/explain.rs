@@ -4,14 +4,14 @@ mod support;
 
 use std::path::Path;
 
-use photon_mapping::assignment8;
 use compare::explain::{Ending, Story, explain, first_that_stores};
-use photon_list::PhotonRecord;
-use variants::trace::trace_piece;
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::point_light::PointLight;
 use support::{fails, json, run_line, stdout};
+use variants::trace::trace_piece;
 
 fn records_of(list: &[PhotonRecord], photon: u64) -> Vec<&PhotonRecord> {
     list.iter().filter(|record| u64::from(record.photon) == photon).collect()

@@ -19,7 +19,7 @@ const PHOTONS: u64 = 60_000;
 
 /// The positions that the reference stores, a line for each, as `line` writes it.
 fn lines(line: impl Fn([f32; 3]) -> String) -> String {
-    let list = fixtures::list(&common::handout(7, PHOTONS));
+    let list = fixtures::list(&fixtures::handout(7, PHOTONS));
     list.iter().map(|record| line(record.position.to_array()) + "\n").collect()
 }
 
@@ -556,7 +556,7 @@ fn a_policy_sets_the_scores() {
 fn lists_after_comments_and_in_other_byte_orders() {
     let folder = folder();
     let at = |path: &str| folder.path().join(path);
-    let list = fixtures::list(&common::handout(7, PHOTONS));
+    let list = fixtures::list(&fixtures::handout(7, PHOTONS));
     let count = list.len();
     let header = "ply\nformat binary_big_endian 1.0\nelement vertex";
     let columns = "property float x\nproperty double y\nproperty float z\nend_header";

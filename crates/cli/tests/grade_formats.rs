@@ -6,9 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use variants::variation::{Hemisphere, Simulation, Variation};
 use serde_json::Value;
 use support::{fails, folder, json, run_line, stdout};
+use variants::variation::{Hemisphere, Simulation, Variation};
 
 const PHOTONS: u64 = 60_000;
 

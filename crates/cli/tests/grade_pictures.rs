@@ -8,9 +8,6 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use image::{DynamicImage, Rgb, RgbImage, imageops};
-use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
-use variants::hypotheses::fair_readings;
 use grading::picture::dot_size::DotSize;
 use grading::picture::dots::{Dots, find_dots};
 use grading::picture::expectations::PictureExpectations;
@@ -21,10 +18,13 @@ use grading::picture::signature::measure;
 use grading::picture::trials::{misread, simulate_dots};
 use grading::picture::view::{PIXELS, View};
 use grading::places::Places;
-use variants::variation::{Hemisphere, Roulette, Simulation, Variation};
+use image::{DynamicImage, Rgb, RgbImage, imageops};
+use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use serde_json::Value;
 use support::{folder, json, run_line};
+use variants::hypotheses::fair_readings;
+use variants::variation::{Hemisphere, Roulette, Simulation, Variation};
 
 const MILLION: u64 = 1_000_000;
 

@@ -7,12 +7,12 @@ use serde::Serialize;
 use super::alignment::Pairing;
 use super::differences::Difference;
 use super::numbers::thousands;
-use variants::section::Section;
 use super::verdict::{Observation, Verdict, judge};
 use crate::explain::{Ending, Hit, Story, explain, vector};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
+use variants::section::Section;
 
 /// So many differing photons are asked when the first one does not tell the section by itself.
 const WITNESSES: usize = 1000;
@@ -81,9 +81,8 @@ impl Lists<'_> {
             .filter(|(_, difference)| *difference == Difference::Place)
             .map(|(pairing, _)| *pairing);
         let Some((story, run)) = story.zip(run) else {
-            let verdict = run.and_then(|run| {
-                self.majority(places, run).or_else(|| only_extra(differing))
-            });
+            let verdict =
+                run.and_then(|run| self.majority(places, run).or_else(|| only_extra(differing)));
             return Divergence {
                 photon,
                 bounce,
@@ -173,12 +172,7 @@ impl Lists<'_> {
         (reference.0.or(submission.0), reference.1.or(submission.1))
     }
 
-    fn judge(
-        &self,
-        pairing: Pairing,
-        story: &Story,
-        run: &Run,
-    ) -> Option<Verdict> {
+    fn judge(&self, pairing: Pairing, story: &Story, run: &Run) -> Option<Verdict> {
         let (_, bounce) = self.identity(pairing);
         Some(judge(&Observation {
             story,
@@ -192,11 +186,7 @@ impl Lists<'_> {
 
     /// The photon and bounce to which an extra record belongs whose list does not tell it: that of
     /// the photons next to it whose path explains it.
-    fn photon_of_extra(
-        &self,
-        extra: Pairing,
-        run: &Run,
-    ) -> Option<(u64, usize, Verdict)> {
+    fn photon_of_extra(&self, extra: Pairing, run: &Run) -> Option<(u64, usize, Verdict)> {
         let submission = self.submission_record(extra);
         let at = self.pairings.iter().position(|pairing| *pairing == extra)?;
         let photon_of = |pairing: &Pairing| {
@@ -222,11 +212,7 @@ impl Lists<'_> {
 
     /// The verdict of most of the photons that differ: of those that leave no doubt, if there are
     /// any, else of all. Of each photon, only the first difference says anything.
-    fn majority(
-        &self,
-        differing: impl Iterator<Item = Pairing>,
-        run: &Run,
-    ) -> Option<Verdict> {
+    fn majority(&self, differing: impl Iterator<Item = Pairing>, run: &Run) -> Option<Verdict> {
         let mut votes: BTreeMap<(bool, Section), (usize, Verdict)> = BTreeMap::new();
         let mut last = None;
         for pairing in differing {
@@ -235,8 +221,7 @@ impl Lists<'_> {
                 continue;
             }
             last = Some(photon);
-            let verdict =
-                explain(run, photon).and_then(|story| self.judge(pairing, &story, run));
+            let verdict = explain(run, photon).and_then(|story| self.judge(pairing, &story, run));
             if let Some(mut verdict) = verdict {
                 if verdict.is_certain {
                     let photon = thousands(photon);

@@ -11,10 +11,10 @@ use serde::Serialize;
 
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::PathVertex;
-use variants::run::Run;
 use photon_mapping::rendering::sampling::sample_hemisphere;
-use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::point_light::PointLight;
+use photon_mapping::scene::ray::IntersectionState;
+use variants::run::Run;
 
 /// How a photon's path ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

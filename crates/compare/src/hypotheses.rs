@@ -2,8 +2,8 @@
 
 use glam::{Mat3, Vec3};
 
-use variants::section::Section;
 use photon_mapping::rendering::sampling::sample_hemisphere;
+use variants::section::Section;
 
 /// What students do instead, with the direction it gives at a hit with `frame`, where the draws
 /// `u1` and `u2` stand for the direction `local` in tangent space. The directions are in world

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 use super::position_index::{PositionIndex, is_near};
-use variants::run::Run;
 use fast::lanes::offset::Offset;
 use variants::reading::{Reading, TangentBasis};
+use variants::run::Run;
 
 /// A photon whose records differ, and what the submission stored of it, if that is known.
 pub type Sample = BTreeMap<u64, Option<Vec<Vec3>>>;

@@ -12,8 +12,8 @@ use super::whole::judge_whole;
 use crate::explain::explain;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::ListHash;
-use variants::run::Run;
 use photon_mapping::scene::Scene;
+use variants::run::Run;
 
 /// So many of the photons that differ are traced again under every reading.
 const SAMPLE: usize = 200;

@@ -4,10 +4,10 @@ use glam::{Mat3, Vec3};
 
 use super::hypotheses::hypotheses;
 use super::position_index::is_near;
-use variants::section::Section;
 use crate::explain::{Ending, Hit, Story};
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::sampling::sample_hemisphere;
+use variants::section::Section;
 
 /// What a difference is put down to.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,9 +6,9 @@ use super::alignment::Pairing;
 use super::differences::Difference;
 use super::divergence::Lists;
 use super::numbers::thousands;
-use variants::section::Section;
 use super::verdict::Verdict;
 use variants::run::Run;
+use variants::section::Section;
 
 /// So many records beyond a bounce must be missing before it is called a limit without doubt.
 const ENOUGH_BEYOND: usize = 5;

@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use compare::alignment::align;
 use compare::differences::count;
 use photon_list::reader::PhotonList;
-use photon_list::record::{Columns, PhotonRecord};
+use photon_list::record::Columns;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 
 const TOLERANCE: f32 = 2e-4;
@@ -34,7 +35,7 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 fn list(positions: Vec<Vec3>) -> PhotonList {
-    let record = |position| PhotonRecord { position, ..PhotonRecord::ABSENT };
+    let record = |position| PhotonRecord { position, ..photon_list::record::ABSENT };
     PhotonList { columns: NONE, records: positions.into_iter().map(record).collect() }
 }
 

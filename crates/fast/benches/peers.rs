@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use glam::Vec3;
 use photon_mapping::assignment8;
-use variants::trace::trace_list;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::Triangle;
+use variants::trace::trace_list;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

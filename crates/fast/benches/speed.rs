@@ -4,28 +4,28 @@ use std::io::Cursor;
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use glam::Vec3;
-use photon_mapping::assignment8;
 use fast::lanes::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
 use fast::lanes::width::Width;
 use fast::lanes::{LaneTracer, picture};
-use photon_list::PhotonRecord;
-use variants::trace::{trace_list, trace_piece};
+use fast::tree::Tree;
+use glam::Vec3;
 use photon_list::writer::{Format, ListHash, ListWriter};
 use photon_list::{reader, record};
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_map::PhotonMap;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
 };
-use photon_mapping::scene::Scene;
-use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::Material;
 use photon_mapping::scene::MeshObject;
+use photon_mapping::scene::Scene;
+use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
-use fast::tree::Tree;
 use photon_mapping::scene::triangle::Triangle;
+use variants::trace::{trace_list, trace_piece};
 
 fn main() {
     divan::main();

@@ -70,10 +70,7 @@ pub fn pieces(photons: &Range<u64>) -> impl Iterator<Item = Range<u64>> + Send +
 }
 
 /// Traces the photons numbered `photons` with `trace_photon`, on this thread.
-pub fn trace_with_port(
-    renderer: &PhotonMappingRenderer,
-    photons: Range<u64>,
-) -> Vec<PhotonRecord> {
+pub fn trace_with_port(renderer: &PhotonMappingRenderer, photons: Range<u64>) -> Vec<PhotonRecord> {
     let mut list = Vec::new();
     renderer.generic_photon_map_generation(&mut Vec::new(), photons, |photon, path, stored| {
         list.extend(records(&renderer.stored_scene, photon, path, stored));
@@ -117,7 +114,9 @@ fn first_difference(of_lanes: &[PhotonRecord], of_port: &[PhotonRecord]) -> Opti
             };
             (port, what)
         }
-        (Some(lanes), Some(port)) if place(lanes) < place(port) => (lanes, "not stored by the port"),
+        (Some(lanes), Some(port)) if place(lanes) < place(port) => {
+            (lanes, "not stored by the port")
+        }
         (Some(lanes), None) => (lanes, "not stored by the port"),
         (_, Some(port)) => (port, "stored only by the port"),
     };

@@ -1,16 +1,15 @@
 //! Closed meshes: no ray finds a way out, and neither does a photon.
 
-
-use fixtures::light;
+use fast::tree::accelerate;
 use glam::{DVec3, Vec3};
 use photon_mapping::assignment8;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use photon_mapping::scene::Scene;
-use photon_mapping::scene::ray::IntersectionState;
-use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::Material;
 use photon_mapping::scene::MeshObject;
+use photon_mapping::scene::Scene;
+use photon_mapping::scene::point_light::PointLight;
+use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
@@ -121,7 +120,7 @@ fn rays_through_shared_edges_and_vertices() {
     ];
     assert_eq!(meshes.iter().map(|mesh| mesh.1).sum::<u64>(), 10_000_000);
     for (name, share, triangles) in meshes {
-        let scene = Scene::new(Vec::new(), triangles.clone(), Vec::new());
+        let scene = scene_of(&triangles);
         (0..share).into_par_iter().for_each(|number| {
             let mut rand = photon_random(31, number);
             let triangle = &triangles[number as usize % triangles.len()];
@@ -146,16 +145,25 @@ fn rays_through_shared_edges_and_vertices() {
     }
 }
 
+/// A scene of `triangles`, with a tree if there are many.
+fn scene_of(triangles: &[Triangle]) -> Scene {
+    let mut scene = Scene::new(Vec::new(), triangles.to_vec(), Vec::new());
+    accelerate(&mut scene);
+    scene
+}
+
 /// How many of `count` photons get lost of a light in the middle of `triangles`. Nothing is absorbed, so each
 /// should bounce as often as it may.
 fn lost(triangles: Vec<Triangle>, seed: u64, count: u64, max_photon_bounces: i32) -> u64 {
     let white = MeshObject { name: String::new(), material: Material::new(Vec3::ONE) };
     let light = PointLight { position: Vec3::ZERO, color: Vec3::ONE };
+    let mut scene = Scene::new(vec![white], triangles, vec![light]);
+    accelerate(&mut scene);
     let renderer = PhotonMappingRenderer {
         seed,
         photon_count: count,
         max_photon_bounces,
-        ..assignment8::create_renderer(Scene::new(vec![white], triangles, vec![light]))
+        ..assignment8::create_renderer(scene)
     };
     let one_piece = |start: u64| {
         let mut lost = 0;
@@ -203,7 +211,7 @@ proptest! {
     fn random_closed_meshes_leak_nothing(seed: u64, level in 0_u32..3, roughness in 0.0_f32..0.9) {
         let radius = |number: usize| 1.0 - roughness * photon_random(seed, number as u64)();
         let triangles = closed_mesh(level, |number, corner| radius(number) * corner);
-        let scene = Scene::new(Vec::new(), triangles.clone(), Vec::new());
+        let scene = scene_of(&triangles);
         for number in 0..6_000_u64 {
             let mut rand = photon_random(seed ^ 1, number);
             let triangle = &triangles[number as usize % triangles.len()];
@@ -214,7 +222,7 @@ proptest! {
             let from = from * 0.95 * rand();
             // Rays go anywhere, to edges and to corners, whatever they meet on their way.
             let direction = match number % 3 {
-                0 => light().generate_random_photon_ray(&mut rand).ray_direction(),
+                0 => assignment8::create_scene().lights()[0].generate_random_photon_ray(&mut rand).ray_direction(),
                 1 => (a.lerp(b, rand()) - from).normalize(),
                 _ => (c - from).normalize(),
             };

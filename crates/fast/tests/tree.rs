@@ -1,8 +1,9 @@
 //! The tree of large scenes never changes a hit.
 
-use glam::Vec3;
-use photon_mapping::scene::ray::Ray;
 use fast::tree::Tree;
+use glam::Vec3;
+use photon_mapping::scene::Acceleration;
+use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
 
@@ -56,11 +57,11 @@ fn the_tree_forgets_no_box_of_many() {
         for direction in [Vec3::Z, Vec3::NEG_Z] {
             let ray = Ray::new(Vec3::new(0.1, 0.05, height), direction);
             let all = |_: &Triangle, _| true;
-            let found = tree.closest(&ray, &triangles, all);
+            let found = tree.closest_of(&ray, &triangles, &all);
             assert_eq!(found, brute_force(&triangles, &ray, all), "{ray:?}");
             // As long as nothing is met, nothing is left out.
             let last = |triangle: &Triangle, _| triangle.vertices[0].z > 655.335;
-            let found = tree.closest(&ray, &triangles, last);
+            let found = tree.closest_of(&ray, &triangles, &last);
             assert_eq!(found, brute_force(&triangles, &ray, last), "{ray:?}");
         }
     }
@@ -83,8 +84,8 @@ proptest! {
                     let mut ray = Ray::new(origin, direction);
                     ray.start_error = start_error;
                     let hit = brute_force(&triangles, &ray, |_, _| true);
-                    let expected = hit.map(|hit| (hit, triangles[hit.0].faces(direction)));
-                    prop_assert_eq!(tree.closest_and_side(&ray, &triangles), expected);
+                    let expected = hit.map(|(at, t)| (at, t, triangles[at].faces(direction)));
+                    prop_assert_eq!(tree.closest(&ray, &triangles), expected);
                 }
             }
         }
@@ -128,13 +129,13 @@ proptest! {
             let front = |triangle: &Triangle, _| triangle.faces(direction);
             for start_error in [0.0, 0.01] {
                 (ray.max_t, ray.start_error) = (f32::INFINITY, start_error);
-                let found = tree.closest(&ray, &triangles, all);
+                let found = tree.closest_of(&ray, &triangles, &all);
                 prop_assert_eq!(found, brute_force(&triangles, &ray, all));
                 ray.max_t = *max_t;
-                let found = tree.closest(&ray, &triangles, all);
+                let found = tree.closest_of(&ray, &triangles, &all);
                 prop_assert_eq!(found, brute_force(&triangles, &ray, all));
                 prop_assert_eq!(tree.any(&ray, &triangles), found.is_some());
-                let found = tree.closest(&ray, &triangles, front);
+                let found = tree.closest_of(&ray, &triangles, &front);
                 prop_assert_eq!(found, brute_force(&triangles, &ray, front));
             }
         }

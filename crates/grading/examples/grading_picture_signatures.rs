@@ -4,11 +4,11 @@
 #[path = "common/shorten.rs"]
 mod shorten;
 
-use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use grading::picture::signature::PictureSignatures;
 use grading::picture::view::View;
 use grading::places::Places;
 use grading::signature::Effort;
+use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use shorten::shorten;
 
 /// With these, a signature is known better than the leeway that a density has.

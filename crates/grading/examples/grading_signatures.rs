@@ -3,9 +3,9 @@
 #[path = "common/shorten.rs"]
 mod shorten;
 
-use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use grading::places::Places;
 use grading::signature::{Effort, Signatures};
+use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use shorten::shorten;
 
 fn main() {

@@ -3,20 +3,22 @@
 //!
 //! `cargo run --release --example grading_table -- [--false-alarms N] [--seeds N] [--only MISREADING]`
 
+use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};
-use photon_mapping::assignment8::{create_light, create_scene};
-use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::observe;
-use variants::pairs::pairs;
 use grading::places::{Place, Places};
 use grading::signature::{Effort, Signatures};
-use variants::variation::{FACETS, Simulation, Variation};
 use photon_list::reader::PhotonList;
-use photon_list::record::{Columns, PhotonRecord};
+use photon_list::record::Columns;
+use photon_mapping::assignment8::create_scene;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
-use variants::reading::{Reading, TangentBasis};
 use rayon::prelude::*;
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
+use variants::pairs::pairs;
+use variants::reading::{Reading, TangentBasis};
+use variants::variation::{FACETS, Simulation, Variation};
 
 /// What a list tells besides positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,11 +205,11 @@ fn judged(
     };
     if !has_all {
         records.iter_mut().for_each(|record| {
-            *record = PhotonRecord { position: record.position, ..PhotonRecord::ABSENT };
+            *record = PhotonRecord { position: record.position, ..photon_list::record::ABSENT };
         });
     }
     let list = PhotonList { columns, records };
-    let light: DVec3 = create_light().position;
+    let light: DVec3 = create_scene().lights()[0].position.as_dvec3();
     let observation = observe(&list, &expectations.places, light);
     let by_user = (content == Content::PositionsAndNumber).then_some(emitted as f64);
     let emitted = by_user.or(observation.emitted_by_intensity);

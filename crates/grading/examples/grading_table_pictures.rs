@@ -3,10 +3,10 @@
 //! `grading_table_pictures [SEEDS] [CORRECT]`: the pictures of every misreading, and those of every
 //! number of photons sent out that are correct.
 
-use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use grading::picture::expectations::PictureExpectations;
 use grading::picture::trials::{FalseAlarms, Row, detect, false_alarms, ids};
 use grading::places::Places;
+use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 
 /// As many photons as the framework sends out.
 const EMITTED: u64 = 1_000_000;

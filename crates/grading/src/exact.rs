@@ -6,8 +6,8 @@ use compare::report::{Outcome, Report, compare, scene_size};
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::run::Run;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
+use variants::run::Run;
 
 /// How close two positions must be that count as one, as a part of the scene's longest edge.
 const TOLERANCE: f32 = 1e-4;

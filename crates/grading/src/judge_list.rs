@@ -6,17 +6,17 @@ use std::sync::OnceLock;
 use super::bounces::bounce_findings;
 use super::direct::{is_ruled_out, shows_direct};
 use super::facts::{enough, plain_findings, remarks};
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
 use super::naming::{Explanation, Known, bounces_show, explain};
 use super::number::{SLIPS, cannot_be, contradiction, impossible, slip_finding};
 use super::observation::Observation;
-use variants::pairs::pairs;
 use super::picture::expectations::PictureExpectations;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
 use super::statistics::{Law, corrected, fit, grouped, normal_tails, tails_of_count, towards};
 use super::test::Test;
 use super::verdict::Finding;
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
+use variants::pairs::pairs;
 
 /// A submission that is as strange as this by chance alone is called incorrect. Of ten thousand
 /// submissions that are correct, one may be; a tenth of that leaves room for what the tests assume.

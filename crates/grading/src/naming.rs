@@ -1,13 +1,13 @@
 //! Which misreading explains what a submission shows?
 
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, no_offset};
 use super::observation::Observation;
-use variants::pairs::PAIR;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
 use super::statistics::{Fit, Matrix, fit, grouped, towards};
-use variants::variation::{FACETS, survival_of_facets};
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, no_offset};
+use variants::pairs::PAIR;
 use variants::reading::TangentBasis;
+use variants::variation::{FACETS, survival_of_facets};
 
 /// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
 /// misreading is not all of it.

@@ -1,9 +1,9 @@
 //! What a list of photons shows: counted by place, and looked over for what cannot be right.
 
 use super::places::{Place, Places};
+use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
-use glam::{DVec3, Vec3};
 
 /// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
 const SAME_PLACE: f64 = 2e-5;

@@ -5,14 +5,14 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
 use super::observation::{BOUNCES, Counts};
-use variants::pairs::pairs;
 use super::places::Places;
 use super::statistics::{Law, Matrix};
-use variants::variation::Simulation;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
+use variants::pairs::pairs;
+use variants::variation::Simulation;
 
 /// How many photons a thread traces at once.
 const PIECE: u64 = 1 << 16;

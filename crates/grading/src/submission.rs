@@ -14,9 +14,9 @@ use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
 use super::verdict::{Finding, Grade, Verdict, Weight};
-use photon_mapping::assignment8;
 use photon_list::error::ListError;
 use photon_list::reader::{self, PhotonList};
+use photon_mapping::assignment8;
 
 /// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with ten
 /// million photons and every mistake at once has fewer than this.

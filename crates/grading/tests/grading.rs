@@ -3,25 +3,25 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3, Vec3Swizzles};
-use oracle::table::ExpectedTable;
-use photon_mapping::assignment8::{create_light, create_scene};
-use variants::hypotheses::{
-    Hypothesis, fair_readings, misreadings, no_offset, to_the_letter,
-};
 use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::{Counts, Observation, observe};
-use variants::pairs::pairs;
 use grading::places::{Place, Places};
 use grading::policy::Policy;
 use grading::signature::{Effort, Signatures, classes, measure};
 use grading::statistics::{Law, corrected, fit, normal_tails, towards};
-use variants::variation::{Hemisphere, Roulette, Simulation, Variation};
 use grading::verdict::{Finding, Verdict, Weight};
+use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
-use photon_list::record::{Columns, PhotonRecord};
+use photon_list::record::Columns;
+use photon_mapping::assignment8::create_scene;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
-use variants::reading::{Offset, Reading};
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset, to_the_letter};
+use variants::pairs::pairs;
+use variants::reading::Reading;
+use variants::variation::{Hemisphere, Roulette, Simulation, Variation};
 
 const EMITTED: u64 = 200_000;
 
@@ -34,13 +34,19 @@ fn records(variation: Variation, seed: u64, emitted: u64) -> Vec<PhotonRecord> {
 }
 
 fn observed(records: Vec<PhotonRecord>, columns: Columns) -> Observation {
-    observe(&PhotonList { columns, records }, &PLACES, create_light().position)
+    observe(
+        &PhotonList { columns, records },
+        &PLACES,
+        create_scene().lights()[0].position.as_dvec3(),
+    )
 }
 
 /// What is seen of positions alone.
 fn positions_of(records: &[PhotonRecord]) -> Observation {
-    let bare =
-        |record: &PhotonRecord| PhotonRecord { position: record.position, ..PhotonRecord::ABSENT };
+    let bare = |record: &PhotonRecord| PhotonRecord {
+        position: record.position,
+        ..photon_list::record::ABSENT
+    };
     observed(records.iter().map(bare).collect(), Columns::default())
 }
 
@@ -702,7 +708,7 @@ fn what_is_told_beside_a_p_value_has_its_leeway() {
 fn photons_straight_from_the_light_are_seen_by_their_direction() {
     // So few that densities hardly change.
     let mut of_reference = records(Variation::default(), 66, EMITTED);
-    let light = create_light().position.as_vec3();
+    let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     for record in of_reference.iter_mut().step_by(500) {
         record.to_light = (light - record.position).normalize();
     }
@@ -725,7 +731,7 @@ fn photons_straight_from_the_light_are_seen_by_their_direction() {
 fn directions_that_the_photons_contradict_cost_nothing() {
     // As where photons that have bounced once are given the direction of the light.
     let mut of_reference = records(Variation::default(), 79, EMITTED);
-    let light = create_light().position.as_vec3();
+    let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     for record in of_reference.iter_mut().filter(|record| record.bounce == 1) {
         record.to_light = (light - record.position).normalize();
     }
@@ -742,7 +748,7 @@ fn directions_that_the_photons_contradict_cost_nothing() {
 fn a_few_photons_straight_from_the_light_are_found() {
     let with_direct = Variation { direct_stored: true, ..Variation::default() };
     let mut rand = photon_random(80, 80);
-    let light = create_light().position.as_vec3();
+    let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     let is_straight = |record: &PhotonRecord| {
         (light - record.position).normalize().dot(record.to_light) > 1.0 - 1e-7
     };
@@ -764,7 +770,7 @@ fn a_few_photons_straight_from_the_light_are_found() {
 fn photons_straight_from_the_light_alone_are_seen_by_their_places() {
     let with_direct = Variation { direct_stored: true, ..Variation::default() };
     let mut records = records(with_direct, 81, EMITTED);
-    let light = create_light().position.as_vec3();
+    let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     records
         .retain(|record| (light - record.position).normalize().dot(record.to_light) > 1.0 - 1e-7);
     let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
@@ -792,7 +798,7 @@ fn self_hits_among_positions_with_few_decimals_are_not_said_to_be_direct() {
 #[test]
 fn directions_to_the_light_through_surfaces_say_nothing_of_photons() {
     let mut of_reference = records(Variation::default(), 77, EMITTED);
-    let light = create_light().position.as_vec3();
+    let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     for record in &mut of_reference {
         record.to_light = (light - record.position).normalize();
     }

@@ -42,8 +42,7 @@ mod tests {
         let model = obj::parse(include_str!("../assets/cornell_box.obj"), |_| {
             Ok(include_str!("../assets/cornell_box.mtl").to_owned())
         });
-        let light =
-            ModelLight { position: DVec3::new(0.01909, 0.0101, 1.77640), color: Vec3::ONE };
+        let light = ModelLight { position: DVec3::new(0.01909, 0.0101, 1.77640), color: Vec3::ONE };
         let (scene, placement) = place(model.unwrap(), &[light]);
         let expected = assignment8::create_scene();
         assert_eq!(scene.mesh_objects(), expected.mesh_objects());

@@ -45,7 +45,12 @@ pub fn expect_for_scene(
         for vertices in polygons(triangles) {
             owners.push(ids.len() - 1);
             let normal = first.normal.as_dvec3();
-            all_facets.push(Facet { surface: first.parent_mesh_object, vertices, normal, survival });
+            all_facets.push(Facet {
+                surface: first.parent_mesh_object,
+                vertices,
+                normal,
+                survival,
+            });
         }
     }
     let mut expectation = expect(&all_facets, &emitters, accuracy);

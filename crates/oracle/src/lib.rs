@@ -38,7 +38,6 @@ pub use expectation::{Bounded, Expectation, FacetHits};
 use glam::DVec3;
 pub use solve::expect;
 
-
 /// A flat convex polygon that scatters diffusely.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facet {

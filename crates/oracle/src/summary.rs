@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::Bounded;
 use crate::table::ExpectedTable;
-use photon_mapping::photon_list::PhotonRecord;
 use crate::text_table::align;
+use photon_mapping::photon_list::PhotonRecord;
 
 /// Counts of stored photons, surface by bounce.
 #[derive(Clone, Debug)]

@@ -16,15 +16,15 @@ pub const ABSENT: PhotonRecord = PhotonRecord {
 /// Sets column `column` of [`COLUMNS`](photon_mapping::photon_list::COLUMNS), given as text or as any
 /// number; `None` when the value does not fit the column.
 pub(crate) fn set(record: &mut PhotonRecord, column: usize, value: Value<'_>) -> Option<()> {
-        match column {
-            0..=2 => record.position[column] = value.float()?,
-            3..=5 => record.intensity[column - 3] = value.float()?,
-            6..=8 => record.to_light[column - 6] = value.float()?,
-            9 => record.photon = value.whole()?.try_into().ok()?,
-            10 => record.bounce = value.whole()?.try_into().ok()?,
-            _ => record.surface = value.whole()?.try_into().ok()?,
-        }
-        Some(())
+    match column {
+        0..=2 => record.position[column] = value.float()?,
+        3..=5 => record.intensity[column - 3] = value.float()?,
+        6..=8 => record.to_light[column - 6] = value.float()?,
+        9 => record.photon = value.whole()?.try_into().ok()?,
+        10 => record.bounce = value.whole()?.try_into().ok()?,
+        _ => record.surface = value.whole()?.try_into().ok()?,
+    }
+    Some(())
 }
 
 /// A value as a file gives it.

@@ -169,9 +169,9 @@ tracer!(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hits::surface_hits;
     use photon_mapping::assignment8;
     use photon_mapping::random::photon_random;
-    use crate::hits::surface_hits;
     use photon_mapping::scene::LARGE_EPSILON;
 
     #[test]

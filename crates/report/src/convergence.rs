@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::Section;
 use super::csv::{Table, digits, percent, short};
 use super::plot::{Axes, Line, Mark, draw};
-use super::speed_runs::{SpeedRun, Speed};
+use super::speed_runs::{Speed, SpeedRun};
 use super::statistics::{Estimate, FEWEST, Runs, log_log_slope, rms, variance_of_one};
 
 /// A density that is judged, as a sum of facets.

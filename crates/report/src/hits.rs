@@ -42,10 +42,7 @@ pub fn look_at_paths<T: Default + Send>(
 
 /// How many photons hit anything at their first hit, second hit, and so on, to the last that
 /// counts; then how many were stored altogether.
-pub fn hits_by_bounce<const HITS: usize>(
-    run: &Run,
-    photons: Range<u64>,
-) -> ([u64; HITS], u64) {
+pub fn hits_by_bounce<const HITS: usize>(run: &Run, photons: Range<u64>) -> ([u64; HITS], u64) {
     let pieces = look_at_paths(run, photons, |found: &mut (Vec<u64>, u64), _, path| {
         found.0.resize(HITS, 0);
         let hits = path.len() - 1;

@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use super::csv::{Table, digits};
 use super::plan::Plan;
+use fast::trace::trace_list;
+use model::facets::facet_of_triangles;
 use oracle::table::{ExpectedTable, FacetRow};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
-use fast::trace::trace_list;
-use model::facets::facet_of_triangles;
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use photon_mapping::scene::Scene;
 

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
+use model::obj::{self, ModelLight};
 use photon_mapping::assignment8;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::point_light::PointLight;
-use model::obj::{self, ModelLight};
 use photon_mapping::scene::triangle::Triangle;
 
 /// Where the scene is put.

@@ -5,8 +5,8 @@ use fast::lanes::offset::Offset;
 use glam::Vec3;
 
 use super::variation::{FACETS, Hemisphere, Roulette, Variation};
-use crate::section::Section;
 use crate::reading::{Reading, TangentBasis};
+use crate::section::Section;
 
 /// A way in which the assignment may have been done.
 #[derive(Clone, Debug, PartialEq)]

@@ -160,8 +160,8 @@ impl Run {
         Ok(None)
     }
 
-    /// Lanes for this run; `None` where they cannot trace it.
-    fn lanes(&self) -> Option<LaneTracer<'_>> {
+    /// Lanes for this run, whose records are in the scene's space; `None` where they cannot trace it.
+    pub fn lanes(&self) -> Option<LaneTracer<'_>> {
         let Self { renderer, reading, sampler, .. } = self;
         // Lanes take the last column of the frame for the normal.
         if *sampler != Sampler::ChaCha || reading.tangent_basis == TangentBasis::Transposed {

@@ -6,19 +6,19 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use photon_mapping::assignment8;
+use crate::reading::{Reading, TangentBasis};
+use crate::tracer;
 use fast::lanes::LaneTracer;
 use fast::lanes::width::Width;
 use model::facets::facets;
 use photon_list::record::ABSENT;
+use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
-use crate::tracer;
-use crate::reading::{Reading, TangentBasis};
-use photon_mapping::scene::Scene;
 use photon_mapping::scene::Material;
 use photon_mapping::scene::MeshObject;
+use photon_mapping::scene::Scene;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::Triangle;
 
@@ -184,10 +184,13 @@ impl Simulation {
     pub fn trace(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
         let reading = self.variation.reading;
         let frame = |normal| reading.tangent_frame(normal);
-        let lanes = || LaneTracer::with_frames(&self.renderer, Width::widest(), frame, reading.offset);
+        let lanes =
+            || LaneTracer::with_frames(&self.renderer, Width::widest(), frame, reading.offset);
         match self.variation.is_fast().then(lanes).flatten() {
             Some(lanes) => lanes.trace_piece(photons),
-            None => self.trace_one_by_one(photons, |photon| photon_random(self.renderer.seed, photon)),
+            None => {
+                self.trace_one_by_one(photons, |photon| photon_random(self.renderer.seed, photon))
+            }
         }
     }
 

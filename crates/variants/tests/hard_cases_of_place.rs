@@ -1,26 +1,27 @@
 //! Hard cases of size and place: the whole scene scaled or moved, or a small detail of a wide one.
 
-
 use std::time::Instant;
 
+use fast::lanes::offset::Offset;
 use fixtures::judge::{Judge, Judgement};
 use fixtures::{handout, handout_on_a_plain, handout_over_a_square, light, list, moved_handout};
 use glam::{DVec3, Vec3};
+use model::placement::Placement;
 use oracle::Accuracy;
 use oracle::table::ExpectedTable;
-use photon_mapping::assignment8;
-use photon_list::PhotonRecord;
+use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
-use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
-use variants::reading::{Offset, Reading};
-use report::both_precisions::Path;
-use report::both_precisions::double::Tracer;
-use model::placement::Placement;
-use photon_mapping::scene::point_light::PointLight;
+use photon_mapping::rendering::photon_mapping_renderer::PathVertex;
 use photon_mapping::scene::Material;
 use photon_mapping::scene::MeshObject;
+use photon_mapping::scene::Scene;
+use photon_mapping::scene::numerics::LARGE_EPSILON;
+use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::triangle::Triangle;
-use photon_mapping::scene::{LARGE_EPSILON, Scene};
+use report::both_precisions::Path;
+use report::both_precisions::double::Tracer;
+use variants::reading::Reading;
+use variants::run::Run;
 
 /// Whether `judgement` of `count` photons has nothing impossible in it, and on the handout's surfaces
 /// what the oracle of the unmoved scene expects.
@@ -68,8 +69,8 @@ fn small_detail_of_a_wide_scene() {
     let count = 1_000_000;
     let at_home = Judge::new(&handout(32, count)).judge(0..count);
     for extent in [20.0, 200.0, 2e3, 2e4] {
-        let renderer = handout_over_a_square(extent, DVec3::ZERO, 32, count);
-        let judgement = Judge::new(&renderer).judge(0..count);
+        let run = handout_over_a_square(extent, DVec3::ZERO, 32, count);
+        let judgement = Judge::new(&run).judge(0..count);
         check(&judgement, count, &format!("over a square of {extent}"));
         let pairs = judgement.stored.iter().zip(&at_home.stored);
         let differences: Vec<_> = pairs.map(|(here, there)| here.abs_diff(*there)).collect();
@@ -89,8 +90,8 @@ fn small_detail_away_from_the_middle() {
         for direction in [DVec3::new(0.9, -0.3, 0.0), DVec3::new(-0.2, 0.5, 0.0)] {
             let shift = extent * direction;
             let rounding = f64::from(f32::EPSILON) * shift.abs().max_element();
-            let renderer = handout_over_a_square(extent, shift, 33, count);
-            let judgement = Judge::new(&renderer).judge(0..count);
+            let run = handout_over_a_square(extent, shift, 33, count);
+            let judgement = Judge::new(&run).judge(0..count);
             let pairs = judgement.stored.iter().zip(&at_home.stored);
             let differences: Vec<_> = pairs.map(|(a, b)| a.abs_diff(*b)).collect();
             let case =
@@ -112,10 +113,10 @@ fn small_detail_away_from_the_middle() {
 fn small_detail_on_a_wide_plain() {
     let count = 300_000;
     for extent in [20.0, 200.0, 2e3, 2e4] {
-        let renderer = handout_on_a_plain(extent, DVec3::ZERO, 34, count);
-        let scene = &renderer.stored_scene;
+        let run = handout_on_a_plain(extent, DVec3::ZERO, 34, count);
+        let scene = run.scene();
         // In f64 the scene is traced at the size of the handout's, where the framework's offset is right.
-        let unit = scene.frame().length_to_world(1.0);
+        let unit = run.placement.length_to_world(1.0);
         let triangles = scene.triangles().iter().map(|triangle| Triangle {
             vertices: triangle.vertices.map(|vertex| vertex * unit),
             ..*triangle
@@ -129,8 +130,7 @@ fn small_detail_on_a_wide_plain() {
         let double = Tracer::new(&world, LARGE_EPSILON.into());
         let mut others = 0_u32;
         let mut exact = Path::default();
-        let mut map = Vec::new();
-        renderer.generic_photon_map_generation(&mut map, 0..count, |photon, path, _| {
+        run.trace_photons(0..count, |photon, path, _| {
             double.trace(&mut photon_random(34, photon), &mut exact);
             let hits = path[1..].iter().map(|vertex| match vertex {
                 PathVertex::Surface(state) => state.intersected_primitive,
@@ -148,10 +148,10 @@ fn small_detail_on_a_wide_plain() {
 fn expected_hits_on_a_wide_plain() {
     let count = 1_000_000;
     for extent in [20.0, 500.0] {
-        let renderer = handout_on_a_plain(extent, DVec3::ZERO, 37, count);
-        let scene = &renderer.stored_scene;
+        let run = handout_on_a_plain(extent, DVec3::ZERO, 37, count);
+        let scene = run.scene();
         let expected = ExpectedTable::compute(scene, &[count], Accuracy::Quick);
-        let records = list(&renderer);
+        let records = list(&run);
         for (surface, row) in expected.surfaces.iter().enumerate() {
             for bounce in 1..=3 {
                 let is_one =
@@ -196,12 +196,8 @@ fn expected_hits_on_a_sheet_of_two_sides() {
     let scene = Scene::new(names.into(), triangles.concat(), vec![light]);
     let count = 300_000;
     let expected = ExpectedTable::compute(&scene, &[count], Accuracy::Quick);
-    let renderer = PhotonMappingRenderer {
-        seed: 38,
-        photon_count: count,
-        ..assignment8::create_renderer(scene)
-    };
-    let records = list(&renderer);
+    let run = Run::of_scene(scene, Placement::WORLD, 38, count);
+    let records = list(&run);
     for (surface, row) in expected.surfaces.iter().enumerate() {
         let stored = records.iter().filter(|r| usize::from(r.surface) == surface).count() as f64;
         let deviation = (expected.covariance[surface][surface] * count as f64).sqrt();
@@ -216,9 +212,9 @@ fn expected_hits_on_a_sheet_of_two_sides() {
 fn judge_misses_nothing() {
     for offset in [Offset::None, Offset::AlongNormal(-0.3), Offset::AlongNormal(0.01)] {
         let reading = Reading { offset, ..Reading::REFERENCE };
-        let renderer =
-            PhotonMappingRenderer { reading, max_photon_bounces: 20, ..handout(35, 100_000) };
-        let judge = Judge::new(&renderer);
+        let mut run = Run { reading, ..handout(35, 100_000) };
+        run.renderer.max_photon_bounces = 20;
+        let judge = Judge::new(&run);
         let by_list = judge.judge(0..100_000).impossible();
         assert_eq!(by_list, judge.judge_all_paths(0..100_000).impossible(), "{offset:?}");
         if offset == Offset::AlongNormal(-0.3) {
@@ -251,9 +247,10 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
     });
     println!("case, rays, self-hits, leaks, under boxes, seconds");
     let cases = details.into_iter().chain(moved).chain(scaled);
-    for (seed, (case, renderer)) in (1100..).zip(cases) {
+    for (seed, (case, mut run)) in (1100..).zip(cases) {
+        run.renderer.seed = seed;
         let start = Instant::now();
-        let judgement = Judge::new(&PhotonMappingRenderer { seed, ..renderer }).judge(0..PHOTONS);
+        let judgement = Judge::new(&run).judge(0..PHOTONS);
         // One ray left the light for every photon, and another a surface for every one that was stored.
         let stored: u64 = judgement.stored.iter().sum();
         let seconds = start.elapsed().as_secs_f64();
@@ -285,18 +282,18 @@ fn moving_rounds_positions_once() {
 
 #[test]
 fn handout_is_traced_where_it_stands() {
-    let scene = handout(1, 1).stored_scene;
-    assert_eq!(*scene.frame(), Frame::WORLD);
+    let run = moved_handout(1.0, DVec3::ZERO, 1, 1);
+    assert_eq!(run.placement, Placement::WORLD);
     assert_eq!(light().position, Vec3::new(0.01909, 0.0101, 1.77640));
 }
 
 #[test]
 fn rays_of_the_handout_start_where_the_framework_starts_them() {
     for (scale, shift) in [(1.0, DVec3::ZERO), (1e-4, DVec3::ONE), (1e4, DVec3::ZERO)] {
-        let renderer = moved_handout(scale, shift, 36, 100_000);
-        let scene = &renderer.stored_scene;
+        let run = moved_handout(scale, shift, 36, 100_000);
+        let scene = run.scene();
         let mut hits = 0;
-        renderer.generic_photon_map_generation(&mut Vec::new(), 0..100_000, |_, path, _| {
+        run.trace_photons(0..100_000, |_, path, _| {
             for vertex in &path[1..] {
                 let PathVertex::Surface(state) = vertex else { unreachable!() };
                 let (point, t) = (state.intersection_point(), state.intersection_t);

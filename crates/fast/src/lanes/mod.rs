@@ -106,7 +106,8 @@ impl<'renderer> LaneTracer<'renderer> {
         }
         let surface =
             |triangle: &Triangle| Surface::new(renderer, triangle, tangent_frame(triangle.normal));
-        let surfaces: Vec<Surface> = scene.triangles().iter().map(surface).collect::<Option<_>>()?;
+        let surfaces: Vec<Surface> =
+            scene.triangles().iter().map(surface).collect::<Option<_>>()?;
         let reflection: Vec<f32> = surfaces.iter().map(|s| s.probability_of_reflection).collect();
         let outlook = |light: &PointLight| Outlook::new(scene, light.position, &reflection);
         Some(Self {

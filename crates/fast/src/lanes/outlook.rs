@@ -296,8 +296,8 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use photon_mapping::assignment8;
     use crate::lanes::emission::{coordinate, is_in_sphere};
+    use photon_mapping::assignment8;
     use photon_mapping::random::photon_random;
 
     #[test]

@@ -7,7 +7,9 @@ use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
 use super::width::Width;
 use photon_mapping::rendering::backward_renderer::light_towards;
 use photon_mapping::rendering::image_writer;
-use photon_mapping::rendering::photon_mapping_renderer::{PHOTON_DOT_RADIUS, PhotonMappingRenderer};
+use photon_mapping::rendering::photon_mapping_renderer::{
+    PHOTON_DOT_RADIUS, PhotonMappingRenderer,
+};
 use photon_mapping::scene::camera::PerspectiveCamera;
 use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
@@ -40,8 +42,7 @@ pub fn take_picture(
     let camera_ray = |column: usize, row: usize| {
         image_writer::camera_ray(camera, column as u32, row as u32, width, height)
     };
-    let of_port =
-        |ray: &Ray| image_writer::to_bytes(renderer.compute_sample_color(ray));
+    let of_port = |ray: &Ray| image_writer::to_bytes(renderer.compute_sample_color(ray));
     let take_with_port = || {
         let mut picture = image::RgbImage::new(width, height);
         let rows = picture.par_chunks_exact_mut(3 * width as usize).enumerate();

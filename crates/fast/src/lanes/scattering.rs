@@ -8,7 +8,6 @@ use super::closest_hit::{GROUP, Rays};
 use super::offset::Offset;
 use super::trigonometry::sine_and_cosine;
 
-
 /// Scatters [`GROUP`] photons.
 pub struct Scatter<'a> {
     /// Their words for u1 and u2.

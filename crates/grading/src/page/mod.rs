@@ -18,12 +18,12 @@ use super::judge_list::{Expectations, Judgement};
 use super::policy::Policy;
 use super::submission::{Graded, Submission};
 use super::text::{chance, verdict_in_words};
-use variants::variation::{FACETS, Variation};
 use super::verdict::{Finding, Grade, Verdict, Weight};
-use photon_mapping::assignment8;
 use photon_list::reader::PhotonList;
+use photon_mapping::assignment8;
 use plot::Histogram;
 use profile::{Axis, LAST_BOUNCE, Profile};
+use variants::variation::{FACETS, Variation};
 
 const STYLE: &str = include_str!("style.css");
 /// Keeps the page from loading anything, should ever something of a submission get through unescaped.

@@ -5,10 +5,10 @@ use base64::prelude::BASE64_STANDARD;
 use glam::Vec3;
 use image::{Rgb, RgbImage};
 
-use photon_mapping::assignment8;
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use fast::trace::trace_list;
+use photon_mapping::assignment8;
 use photon_mapping::rendering::photon_map::PhotonMap;
 
 /// A reference of more photons than this is drawn with this many.

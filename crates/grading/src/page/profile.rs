@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::observation::Counts;
 use crate::places::{Facet, Place, Places};
-use variants::variation::{Simulation, Variation};
 use photon_mapping::photon_list::PhotonRecord;
+use variants::variation::{Simulation, Variation};
 
 /// Into how many parts an axis is divided.
 pub const BINS: usize = 16;

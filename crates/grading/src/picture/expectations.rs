@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use super::signature::{PictureSignatures, known_misreadings, known_pairs};
 use super::view::View;
-use variants::hypotheses::{Hypothesis, fair_readings};
 use crate::places::Places;
 use crate::signature::Effort;
+use variants::hypotheses::{Hypothesis, fair_readings};
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
 const MANY_BOUNCES: i32 = 20;

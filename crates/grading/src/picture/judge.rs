@@ -5,7 +5,6 @@ use super::expectations::PictureExpectations;
 use super::expected::{Expected, means, total};
 use super::view::View;
 use super::words::{self, LEAST_EMITTED};
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
 use crate::judge_list::{SIGNIFICANCE, alone_or_pair, two_at_once};
 use crate::naming::{Explanation, bounces_show, most_likely};
 use crate::statistics::{
@@ -13,6 +12,7 @@ use crate::statistics::{
 };
 use crate::verdict::{Finding, Weight};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
 
 use super::signature::PictureSignature;
 use crate::test::Test;

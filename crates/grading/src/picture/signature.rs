@@ -6,13 +6,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::view::View;
-use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
-use variants::pairs::{PAIR, can_be_of_two, pairs};
 use crate::places::Places;
 use crate::signature::Effort;
 use crate::statistics::Matrix;
-use variants::variation::{FACETS, Simulation, Variation};
 use photon_mapping::photon_list::PhotonRecord;
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
+use variants::pairs::{PAIR, can_be_of_two, pairs};
+use variants::variation::{FACETS, Simulation, Variation};
 
 /// How many photons a thread traces at once.
 const PIECE: u64 = 1 << 16;

@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use super::expectations::PictureExpectations;
 use super::judge::{PictureJudgement, judge_dots};
 use super::view::{PIXELS, View};
-use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use crate::places::Places;
-use variants::variation::{FACETS, Simulation, Variation};
 use photon_mapping::random::photon_random;
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
+use variants::variation::{FACETS, Simulation, Variation};
 
 /// How many photons are traced at once.
 const PIECE: u64 = 1 << 16;

@@ -7,8 +7,8 @@ use glam::Vec3;
 use image::RgbImage;
 use rayon::prelude::*;
 
-use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_renderer, create_scene};
 use crate::places::{Place, Places};
+use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_renderer, create_scene};
 use photon_mapping::rendering::image_writer::to_bytes;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::camera::PerspectiveCamera;

@@ -1,9 +1,9 @@
 //! What is said of a picture.
 
 use super::expected::Expected;
+use crate::verdict::{Finding, Weight};
 use photon_mapping::assignment8::PHOTON_COUNT;
 use variants::section::Section;
-use crate::verdict::{Finding, Weight};
 
 /// The dots of a picture are too few for what the handout asks for when they fit fewer photons sent
 /// out than this.

@@ -1,9 +1,32 @@
-//! The photon map's one question, against a plain search.
+//! The picture: the photon map's one question, and the pixels.
 
+mod common;
+
+use std::path::Path;
+
+use common::handout;
 use glam::Vec3;
+use photon_mapping::assignment8;
+use photon_mapping::rendering::image_writer::take_picture;
 use photon_mapping::rendering::photon_map::PhotonMap;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use proptest::prelude::*;
+
+#[test]
+fn picture_of_the_handout() {
+    let mut renderer = handout(148, 1_000_000);
+    renderer.initialize_renderer(|_, _, _| ());
+    let (width, height) = (assignment8::WIDTH, assignment8::HEIGHT);
+    let camera = assignment8::create_camera(width, height);
+    let picture = take_picture(&renderer, &camera, width, height);
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/assignment8.png");
+    if std::env::var("INSTA_UPDATE").is_ok_and(|mode| mode == "always") {
+        picture.save(&golden).unwrap();
+    }
+    let golden = image::open(golden).expect("the golden picture is there").into_rgb8();
+    let differing = picture.pixels().zip(golden.pixels()).filter(|(a, b)| a != b).count();
+    assert_eq!((picture.dimensions(), differing), (golden.dimensions(), 0));
+}
 
 /// Coordinates that crowd together, on both sides of zero and of cell borders.
 fn coordinate() -> impl Strategy<Value = f32> {
