@@ -251,6 +251,33 @@ fn a_link_restores_its_step() {
 }
 
 #[test]
+fn the_mouse_turns_zooms_and_centers() {
+    let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
+    browser.media("prefers-reduced-motion", "reduce");
+    let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
+    let (yaw, distance) = (of_camera("yaw"), of_camera("distance"));
+    browser.drag([200.0, 300.0], [300.0, 300.0]);
+    assert!((of_camera("yaw") - yaw - 0.6).abs() < 0.02, "{}", of_camera("yaw"));
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=emission");
+    browser.wheel(200.0, 300.0, -240.0);
+    browser.wait_for(&format!("page.view.camera.distance < {}", 0.8 * distance));
+    browser.click_on("#home");
+    browser.settle();
+    // A double-click on a dot turns the box around it from then on.
+    let dot = "[...page.positions.subarray(0, 3)]";
+    browser.run(&format!("page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); page.view.look({{ target: page.view.camera.target.map((x) => x + 0.01) }})"));
+    browser.settle();
+    let place = browser.run(&format!("(() => {{ const [x, y] = page.view.project({dot}); const r = page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; }})()"));
+    let (x, y) = (float(&place[0]), float(&place[1]));
+    browser.click(x, y);
+    browser.click(x, y);
+    browser.wait_for(&format!(
+        "Math.hypot(...page.view.camera.target.map((x, i) => x - {dot}[i])) < 1e-6"
+    ));
+    browser.has_been_quiet();
+}
+
+#[test]
 fn the_keyboard_alone_is_enough() {
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
     browser.media("prefers-reduced-motion", "reduce");

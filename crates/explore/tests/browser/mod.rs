@@ -187,6 +187,22 @@ impl Browser {
         }
     }
 
+    /// Drags from one CSS pixel of the window to another.
+    pub fn drag(&self, from: [f64; 2], to: [f64; 2]) {
+        for (kind, [x, y]) in [("mousePressed", from), ("mouseMoved", to), ("mouseReleased", to)] {
+            let event = json!({
+                "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1,
+            });
+            self.call("Input.dispatchMouseEvent", event);
+        }
+    }
+
+    /// Turns the wheel by `delta` pixels at the CSS pixel (`x`, `y`) of the window.
+    pub fn wheel(&self, x: f64, y: f64, delta: f64) {
+        let event = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": delta });
+        self.call("Input.dispatchMouseEvent", event);
+    }
+
     /// Clicks the middle of the element `selector`.
     pub fn click_on(&self, selector: &str) {
         let place = self.run(&format!(
