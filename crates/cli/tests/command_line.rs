@@ -180,7 +180,7 @@ fn own_scene_with_two_lights() {
 #[test]
 fn handouts_scene_from_its_files() {
     let folder = folder();
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/src/assignment8/cornell_box.obj");
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/../model/assets/cornell_box.obj");
     let common = ["--photons", "20000", "--size", "8x6", "--json"];
     let built_in = json(&succeed(&folder, &common));
     let scene = ["--scene", model, "--light", "0.01909,0.0101,1.77640"];

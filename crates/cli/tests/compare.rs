@@ -269,7 +269,7 @@ fn bad_input_is_refused_in_one_line() {
 
 /// The handout's box, `scale` times as large, beside its list of 20,000 photons.
 fn scaled_box(folder: &Path, scale: f64) -> (PathBuf, String, PathBuf) {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/assignment8/cornell_box.obj");
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/assets/cornell_box.obj");
     let text = fs::read_to_string(model).expect("the model can be read");
     let scaled = |line: &str| match line.strip_prefix("v ") {
         Some(rest) => rest.split_whitespace().fold("v".to_owned(), |line, number| {
@@ -282,7 +282,7 @@ fn scaled_box(folder: &Path, scale: f64) -> (PathBuf, String, PathBuf) {
     let model = folder.join("scaled.obj");
     fs::write(&model, lines.join("\n") + "\n").expect("the model can be written");
     let materials = "cornell_box.mtl";
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/assignment8");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/assets");
     fs::copy(source.join(materials), folder.join(materials)).expect("the materials can be copied");
     let light = format!("0,0,{}", 1.5 * scale);
     let line = "render --format csv --quiet --size 1x1 --photons 20000 --scene {} --light {} \

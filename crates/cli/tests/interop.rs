@@ -19,7 +19,7 @@ fn compile(source: &str, folder: &Path) -> Option<PathBuf> {
 }
 
 fn headers() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("interop/cpp")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../interop/cpp")
 }
 
 fn compile_file(source: &Path, folder: &Path) -> Option<PathBuf> {
