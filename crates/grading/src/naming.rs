@@ -42,7 +42,7 @@ const RARER: f64 = -6.0;
 /// A misreading that explains a submission, or two at once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// The misreading, or one of [`super::pairs`].
+    /// The misreading, or one of [`variants::pairs`].
     pub hypothesis: Hypothesis,
     /// How well it fits.
     pub fit: Fit,

@@ -121,7 +121,7 @@ impl<'renderer> LaneTracer<'renderer> {
     }
 
     /// Traces the photons numbered `photons` on this thread: the records of
-    /// [`variants::trace::trace_piece`], bit for bit.
+    /// [`crate::trace::trace_with_port`], bit for bit.
     pub fn trace_piece(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
         let mut records = Vec::new();
         let lights = self.renderer.stored_scene.lights();
