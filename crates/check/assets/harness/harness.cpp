@@ -10,8 +10,8 @@
 //   triangle 9 floats, 3 floats             corners and normal; belongs to the object before
 //   light x y z r g b                       a point light: the student's PointLight
 //   emit SCENE CALLS COUNT numbers          a step: asks light 0 for rays
-//   trace SCENE CALLS PATH REMAINING x y z dx dy dz COUNT numbers
-//                                           a step: traces one photon from there
+//   trace SCENE CALLS PATH REMAINING RAYS 6 floats each COUNT numbers
+//                                           a step: traces photons along these rays, in turn
 //   whole SCENE PHOTONS                     a step: the whole run
 //
 // COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled with
@@ -19,7 +19,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -59,11 +58,11 @@ struct Step {
     std::uint64_t calls;
     std::size_t path;
     int remaining;
-    float ray[6];
+    std::vector<Ray> rays;
     std::vector<std::uint32_t> numbers;
 };
 
-// Stands in for the light where TracePhoton cannot be called: it sends out the step's ray.
+// Stands in for the light where TracePhoton cannot be called: it sends out the step's rays.
 class ScriptedLight : public Light {
 public:
     explicit ScriptedLight(const Step& of_step) : step(of_step), calls(0) {}
@@ -74,9 +73,8 @@ public:
             end_call();
         }
         begin_call();
-        begin_numbers(seed, calls++, step.numbers.data(), step.numbers.size());
-        ray.SetRayPosition(glm::vec3(step.ray[0], step.ray[1], step.ray[2]));
-        ray.SetRayDirection(glm::vec3(step.ray[3], step.ray[4], step.ray[5]));
+        begin_numbers(seed, calls, step.numbers.data(), step.numbers.size());
+        ray = step.rays[calls++ % step.rays.size()];
     }
 
 private:
@@ -101,10 +99,17 @@ glm::vec3 read_vector(std::istream& in) {
 }
 
 bool read_plan(const char* path, Plan& plan) {
-    std::ifstream file(path);
+    std::FILE* const file = std::fopen(path, "r");
+    if (file == nullptr) {
+        return false;
+    }
+    std::vector<char> text(1 << 20);
+    text.resize(std::fread(text.data(), 1, text.size(), file));
+    std::fclose(file);
+    std::istringstream lines(std::string(text.begin(), text.end()));
     std::string line;
     MeshObject* object = nullptr;
-    while (std::getline(file, line)) {
+    while (std::getline(lines, line)) {
         std::istringstream in(line);
         std::string item;
         in >> item;
@@ -131,9 +136,14 @@ bool read_plan(const char* path, Plan& plan) {
             in >> step.scene >> step.calls;
             step.kind = item == "emit" ? Step::emit : item == "trace" ? Step::trace : Step::whole;
             if (step.kind == Step::trace) {
-                in >> step.path >> step.remaining;
-                for (float& number : step.ray) {
-                    in >> number;
+                std::size_t rays = 0;
+                in >> step.path >> step.remaining >> rays;
+                for (std::size_t i = 0; i < rays; ++i) {
+                    const glm::vec3 from = read_vector(in);
+                    Ray ray;
+                    ray.SetRayPosition(from);
+                    ray.SetRayDirection(read_vector(in));
+                    step.rays.push_back(ray);
                 }
             }
             if (step.kind != Step::whole) {
@@ -199,20 +209,18 @@ bool set_bounces(Renderer&, int count, long) {
 }
 
 template <class Renderer>
-auto trace_photon(Renderer& renderer, const Step& step, int)
+auto trace_photon(Renderer& renderer, const Step& step, std::uint64_t call, int)
     -> decltype(renderer.TracePhoton(renderer.diffuseMap, std::declval<Ray*>(), intensity,
                                      std::declval<std::vector<char>&>(), 1.f, step.remaining),
                 true) {
-    Ray ray;
-    ray.SetRayPosition(glm::vec3(step.ray[0], step.ray[1], step.ray[2]));
-    ray.SetRayDirection(glm::vec3(step.ray[3], step.ray[4], step.ray[5]));
+    Ray ray = step.rays[call % step.rays.size()];
     std::vector<char> path(step.path, 'D');
     path[0] = 'L';
     renderer.TracePhoton(renderer.diffuseMap, &ray, intensity, path, 1.f, step.remaining);
     return true;
 }
 template <class Renderer>
-bool trace_photon(Renderer&, const Step&, long) {
+bool trace_photon(Renderer&, const Step&, std::uint64_t, long) {
     return false;
 }
 
@@ -289,7 +297,7 @@ void run_trace(const Plan& plan, const Step& step) {
     for (std::uint64_t i = 0; i < step.calls; ++i) {
         begin_call();
         begin_numbers(seed, i, step.numbers.data(), step.numbers.size());
-        if (guarded([&] { trace_photon(*renderer, step, 0); })) {
+        if (guarded([&] { trace_photon(*renderer, step, i, 0); })) {
             end_call();
         }
         clear_map(*renderer, 0);
