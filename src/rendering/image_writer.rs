@@ -1,35 +1,27 @@
-//! From colours to bytes: C++ `ImageWriter`.
+//! From colours to a picture: C++ `RayTracer::Run` and `ImageWriter`.
 
 use glam::Vec3;
-use rayon::prelude::*;
+use image::RgbImage;
 
 use super::photon_mapping_renderer::PhotonMappingRenderer;
 use crate::scene::camera::PerspectiveCamera;
 use crate::scene::ray::Ray;
 
-/// The picture of `width` x `height` pixels that `camera` takes: one sample a pixel, through the
-/// pixel's upper left corner as in the framework, not through its middle. `row_done` is called after
-/// every row, on any thread.
+/// The picture of `width` x `height` pixels that `camera` takes, with one sample a pixel.
 pub fn take_picture(
     renderer: &PhotonMappingRenderer,
     camera: &PerspectiveCamera,
     width: u32,
     height: u32,
-    row_done: impl Fn() + Sync,
-) -> image::RgbImage {
-    let mut picture = image::RgbImage::new(width, height);
-    picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each(|(row, pixels)| {
-        for (column, pixel) in pixels.chunks_exact_mut(3).enumerate() {
-            let camera_ray = camera_ray(camera, column as u32, row as u32, width, height);
-            pixel.copy_from_slice(&to_bytes(renderer.compute_sample_color(&camera_ray)));
-        }
-        row_done();
-    });
-    picture
+) -> RgbImage {
+    RgbImage::from_fn(width, height, |column, row| {
+        let camera_ray = camera_ray(camera, column, row, width, height);
+        image::Rgb(to_bytes(renderer.compute_sample_color(&camera_ray)))
+    })
 }
 
-/// The ray through the upper left corner of a pixel.
-pub(crate) fn camera_ray(
+/// The ray through the upper left corner of a pixel. As in the framework, not through its middle.
+pub fn camera_ray(
     camera: &PerspectiveCamera,
     column: u32,
     row: u32,
@@ -42,7 +34,7 @@ pub(crate) fn camera_ray(
     )
 }
 
-/// Each channel times 255, cut off at 0 and 255 and truncated; no gamma.
-pub(crate) fn to_bytes(color: Vec3) -> [u8; 3] {
+/// Each channel times 255, clamped to [0, 255] and truncated. There is no gamma.
+pub fn to_bytes(color: Vec3) -> [u8; 3] {
     (color * 255.0).clamp(Vec3::ZERO, Vec3::splat(255.0)).to_array().map(|channel| channel as u8)
 }

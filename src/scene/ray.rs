@@ -1,16 +1,18 @@
-//! A ray: where it starts and where it goes.
+//! A ray, and what it met.
 
 use glam::Vec3;
 
-/// A half line in the scene's space, or the part of it before `max_t`.
+use super::Scene;
+use super::triangle::Triangle;
+
+/// A half line in world space, or the part of it before `max_t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     position: Vec3,
     direction: Vec3,
-    /// Nothing at this distance or beyond is met; infinite unless the ray ends somewhere.
+    /// The ray meets nothing at this distance or beyond. Infinite by default.
     pub max_t: f32,
-    /// By how much rounding may have moved the start; 0 unless set. A triangle that faces the ray is met up to
-    /// this far behind the start, and one that shows its back only where the start is deeper below it.
+    /// How far rounding may have moved the start. See [`Scene::spawn_ray`]; 0 by default.
     pub start_error: f32,
 }
 
@@ -25,7 +27,7 @@ impl Ray {
         self.position + t * self.direction
     }
 
-    /// Where the ray starts.
+    /// Where the ray starts: C++ `Ray::GetPosition()`.
     pub fn position(&self) -> Vec3 {
         self.position
     }
@@ -43,5 +45,48 @@ impl Ray {
     /// Turns the ray to the unit vector `direction`: C++ `Ray::SetRayDirection`.
     pub fn set_ray_direction(&mut self, direction: Vec3) {
         self.direction = direction;
+    }
+}
+
+/// The answer of [`Scene::trace`]: the ray that was traced and the closest triangle it met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IntersectionState {
+    /// The ray that was traced.
+    pub intersection_ray: Ray,
+    /// The distance along it.
+    pub intersection_t: f32,
+    /// The index of the triangle met in [`Scene::triangles`].
+    pub intersected_primitive: usize,
+}
+
+impl IntersectionState {
+    /// A state before anything was met.
+    pub fn new() -> Self {
+        Self {
+            intersection_ray: Ray::new(Vec3::ZERO, Vec3::Z),
+            intersection_t: f32::INFINITY,
+            intersected_primitive: usize::MAX,
+        }
+    }
+
+    /// The triangle met.
+    pub fn primitive<'scene>(&self, scene: &'scene Scene) -> &'scene Triangle {
+        &scene.triangles()[self.intersected_primitive]
+    }
+
+    /// The point met, in world space.
+    pub fn intersection_point(&self) -> Vec3 {
+        self.intersection_ray.ray_position(self.intersection_t)
+    }
+
+    /// The unit normal of the model there. It is never turned towards the ray.
+    pub fn compute_normal(&self, scene: &Scene) -> Vec3 {
+        self.primitive(scene).normal
+    }
+}
+
+impl Default for IntersectionState {
+    fn default() -> Self {
+        Self::new()
     }
 }

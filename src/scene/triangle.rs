@@ -34,8 +34,9 @@ impl ShearedRay {
     pub fn new(ray: &Ray) -> Self {
         let direction = ray.ray_direction();
         let [x, y, z] = Self::axes(direction);
+        let origin = ray.position();
         Self {
-            origin: ray.position(),
+            origin: Vec3::new(origin[x], origin[y], origin[z]),
             direction,
             start_error: ray.start_error,
             axes: [x, y, z],
@@ -49,25 +50,25 @@ impl ShearedRay {
 
     /// The axes of the scene that are x, y and z for this ray.
     #[inline(always)]
-    pub(crate) fn order(&self) -> [usize; 3] {
+    pub fn order(&self) -> [usize; 3] {
         self.axes
     }
 
     /// The shears along x and y, and the reciprocal of the direction along z.
     #[inline(always)]
-    pub(crate) fn shear(&self) -> Vec3 {
+    pub fn shear(&self) -> Vec3 {
         self.shear
     }
 
     /// The cosine of the ray's direction to `normal`: not above 0 where the ray meets the side it points to.
     #[inline(always)]
-    pub(crate) fn cosine(&self, normal: Vec3) -> f32 {
+    pub fn cosine(&self, normal: Vec3) -> f32 {
         self.direction.dot(normal)
     }
 
     /// The axes of the scene that become x, y and z for a ray in `direction`.
     #[inline(always)]
-    pub(crate) fn axes(direction: Vec3) -> [usize; 3] {
+    pub fn axes(direction: Vec3) -> [usize; 3] {
         let size = direction.abs();
         if size.x >= size.y && size.x >= size.z {
             [1, 2, 0]
@@ -81,7 +82,7 @@ impl ShearedRay {
     /// Whether the ray meets a triangle at the distance `t` by what is known of its start: see [`Ray::start_error`].
     /// The [`Self::cosine`] is that of the triangle's normal.
     #[inline(always)]
-    pub(crate) fn reaches(&self, cosine: f32, t: f32) -> bool {
+    pub fn reaches(&self, cosine: f32, t: f32) -> bool {
         if self.start_error == 0.0 {
             return t > 0.0;
         }
@@ -89,13 +90,14 @@ impl ShearedRay {
     }
 
     /// `vertex` as the ray sees it: x and y across the ray, z along it in units of the ray's t.
-    fn see(&self, vertex: Vec3) -> Vec3 {
-        let from_origin = vertex - self.origin;
+    #[inline(always)]
+    fn see(&self, vertex: &Vec3) -> Vec3 {
         let [x, y, z] = self.axes;
-        let depth = from_origin[z];
+        let vertex: &[f32; 3] = vertex.as_ref();
+        let depth = vertex[z] - self.origin.z;
         Vec3::new(
-            from_origin[x] - self.shear.x * depth,
-            from_origin[y] - self.shear.y * depth,
+            vertex[x] - self.origin.x - self.shear.x * depth,
+            vertex[y] - self.origin.y - self.shear.y * depth,
             self.shear.z * depth,
         )
     }
@@ -127,7 +129,8 @@ impl Triangle {
     /// (*Watertight Ray/Triangle Intersection*, JCGT 2013): seen along the ray, the sign of each
     /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
     pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
-        let t = meet(self.vertices.map(|vertex| ray.see(vertex)))?;
+        let [a, b, c] = &self.vertices;
+        let t = meet([ray.see(a), ray.see(b), ray.see(c)])?;
         ray.reaches(ray.cosine(self.normal), t).then_some(t)
     }
 
@@ -147,18 +150,20 @@ impl Triangle {
 /// The test of [`Triangle::intersect`] for the corners `a`, `b` and `c` as the ray sees them: the distance
 /// may be 0 or less, or not a number.
 #[inline(always)]
-pub(crate) fn meet([a, b, c]: [Vec3; 3]) -> Option<f32> {
+pub fn meet([a, b, c]: [Vec3; 3]) -> Option<f32> {
     let mut u = c.x * b.y - c.y * b.x;
     let mut v = a.x * c.y - a.y * c.x;
     let mut w = b.x * a.y - b.y * a.x;
-    if u == 0.0 || v == 0.0 || w == 0.0 {
+    if (u == 0.0) | (v == 0.0) | (w == 0.0) {
         // Rounding is monotonic: a difference of two rounded products has the right sign or is
         // zero. In f64 the products are exact, so there even the zeros are true.
         u = exact_edge(c, b);
         v = exact_edge(a, c);
         w = exact_edge(b, a);
     }
-    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+    let any_negative = (u < 0.0) | (v < 0.0) | (w < 0.0);
+    let any_positive = (u > 0.0) | (v > 0.0) | (w > 0.0);
+    if any_negative & any_positive {
         return None;
     }
     let determinant = u + v + w;

@@ -1,164 +1,168 @@
-//! Scenes and lists that several tests use.
+//! Scenes, scripted random numbers and strategies that several tests use.
 #![allow(dead_code, reason = "no test uses all of them")]
 
-pub mod judge;
-
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use photon_mapping::assignment8;
-use photon_mapping::photon_list::record::PhotonRecord;
-use photon_mapping::photon_list::trace::trace_list;
-use photon_mapping::photon_list::writer::ListHash;
-use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
-use photon_mapping::scene::Scene;
-use photon_mapping::scene::lights::point_light::PointLight;
-use photon_mapping::scene::obj::{self, ModelLight};
+use photon_mapping::photon_list::{ListHash, PhotonRecord, records};
+use photon_mapping::random::photon_random;
+use photon_mapping::rendering::photon_mapping_renderer::{
+    PathVertex, Photon, PhotonMappingRenderer,
+};
+use photon_mapping::scene::point_light::PointLight;
+use photon_mapping::scene::ray::Ray;
+use photon_mapping::scene::triangle::Triangle;
+use photon_mapping::scene::{Material, MeshObject, Scene};
+use proptest::prelude::*;
 
-/// A renderer of the handout's scene.
+/// The largest number that a photon can draw.
+pub const LARGEST_BELOW_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
+
+/// The reference's renderer with another seed and number of photons.
 pub fn handout(seed: u64, photon_count: u64) -> PhotonMappingRenderer {
     let renderer = assignment8::create_renderer(assignment8::create_scene());
     PhotonMappingRenderer { seed, photon_count, ..renderer }
 }
 
-/// The handout's scene, every coordinate times `scale` and then moved by `shift` (world space), read
-/// from the text of a model file as a user's scene is.
-pub fn moved_handout(scale: f64, shift: DVec3, seed: u64, count: u64) -> PhotonMappingRenderer {
-    load(&handout_text(scale, shift), scale, shift, seed, count)
-}
-
-/// The handout's scene, moved by `shift`, over the middle of a square from -`extent` to `extent` that
-/// absorbs all photons.
-pub fn handout_over_a_square(
-    extent: f64,
-    shift: DVec3,
-    seed: u64,
-    count: u64,
-) -> PhotonMappingRenderer {
-    let text = handout_text(1.0, shift) + &square("square", extent, -1.0);
-    load(&text, 1.0, shift, seed, count)
-}
-
-/// The handout's scene, moved by `shift`, with a floor that reaches from -`extent` to `extent`.
-pub fn handout_on_a_plain(
-    extent: f64,
-    shift: DVec3,
-    seed: u64,
-    count: u64,
-) -> PhotonMappingRenderer {
-    let text = handout_text(1.0, shift);
-    let (boxes_and_wall, _) = text.split_once("o floor").unwrap();
-    let text = boxes_and_wall.to_owned() + &square("floor", extent, 0.0);
-    load(&text, 1.0, shift, seed, count)
-}
-
-/// The handout's model with y up: world (x, y, z) is (x, z, -y) there.
-fn handout_text(scale: f64, shift: DVec3) -> String {
-    let shift = [shift.x, shift.z, -shift.y];
-    let mut text = String::new();
-    for line in include_str!("../../src/assignment8/cornell_box.obj").lines() {
-        if let Some(figures) = line.strip_prefix("v ") {
-            let figures: Vec<f64> = figures.split(' ').map(|word| word.parse().unwrap()).collect();
-            let [x, y, z] = std::array::from_fn(|axis| figures[axis] * scale + shift[axis]);
-            text += &format!("v {x} {y} {z}\n");
-        } else {
-            text += line;
-            text += "\n";
-        }
-    }
-    text
-}
-
-/// A square of the model that faces up.
-fn square(name: &str, extent: f64, height: f64) -> String {
-    let (e, h) = (extent, height);
-    format!(
-        "o {name}\nusemtl {name}\nv -{e} {h} {e}\nv {e} {h} {e}\nv {e} {h} -{e}\nv -{e} {h} -{e}\n\
-         f -4 -3 -2 -1\n"
-    )
-}
-
-fn load(
-    text: &str,
-    scale: f64,
-    shift: DVec3,
-    seed: u64,
-    photon_count: u64,
-) -> PhotonMappingRenderer {
-    let materials = include_str!("../../src/assignment8/cornell_box.mtl");
-    let materials = format!("{materials}\nnewmtl square\nKd 0 0 0\n");
-    let model = obj::parse(text, |_| Ok(materials.clone())).unwrap();
-    let light = assignment8::create_light();
-    let light = ModelLight { position: light.position * scale + shift, ..light };
-    let renderer = assignment8::create_renderer(Scene::from_model(model, &[light]));
-    PhotonMappingRenderer { seed, photon_count, ..renderer }
+/// The handout's light.
+pub fn light() -> PointLight {
+    assignment8::create_scene().lights()[0]
 }
 
 /// A renderer of a closed cube from -1 to 1 whose walls all reflect `albedo`, with a light in its
-/// centre; the walls are named after the axis they cross.
+/// centre.
 pub fn closed_cube(albedo: f32, seed: u64, photon_count: u64) -> PhotonMappingRenderer {
-    let model = obj::parse(CLOSED_CUBE, |_| Ok(format!("newmtl wall\nKd {albedo} 0 0\n")))
-        .expect("the cube is well formed");
-    let light = ModelLight { position: DVec3::ZERO, color: Vec3::ONE };
-    let scene = Scene::from_model(model, &[light]);
-    let renderer = assignment8::create_renderer(scene);
-    PhotonMappingRenderer { seed, photon_count, ..renderer }
+    // Corners 0 to 7 of a model with y up, and its faces with their normals.
+    let corner = |k: usize| {
+        let high = |bit: bool| if bit { 1.0 } else { -1.0 };
+        let (x, y, z) = (high(k % 4 == 1 || k % 4 == 2), high(k % 4 >= 2), high(k >= 4));
+        Vec3::new(x, 0.0 - z, y)
+    };
+    let faces: [(&str, [usize; 4], Vec3); 6] = [
+        ("low_x", [0, 3, 7, 4], Vec3::X),
+        ("high_x", [1, 5, 6, 2], Vec3::NEG_X),
+        ("low_y", [0, 4, 5, 1], Vec3::Z),
+        ("high_y", [3, 2, 6, 7], Vec3::NEG_Z),
+        ("low_z", [0, 1, 2, 3], Vec3::NEG_Y),
+        ("high_z", [4, 7, 6, 5], Vec3::Y),
+    ];
+    let material = Material::new(Vec3::new(albedo, 0.0, 0.0));
+    let mut mesh_objects = Vec::new();
+    let mut triangles = Vec::new();
+    for (name, corners, normal) in faces {
+        let [a, b, c, d] = corners.map(corner);
+        triangles.extend([[a, b, c], [a, c, d]].map(|vertices| Triangle {
+            vertices,
+            normal,
+            parent_mesh_object: mesh_objects.len(),
+            facet: 0,
+        }));
+        mesh_objects.push(MeshObject { name: name.to_owned(), material });
+    }
+    let light = PointLight { position: Vec3::ZERO, color: Vec3::ONE };
+    let scene = Scene::new(mesh_objects, triangles, vec![light]);
+    PhotonMappingRenderer { seed, photon_count, ..assignment8::create_renderer(scene) }
 }
 
-const CLOSED_CUBE: &str = "
-mtllib cube.mtl
-v -1 -1 -1
-v  1 -1 -1
-v  1  1 -1
-v -1  1 -1
-v -1 -1  1
-v  1 -1  1
-v  1  1  1
-v -1  1  1
-vn 1 0 0
-vn -1 0 0
-vn 0 1 0
-vn 0 -1 0
-vn 0 0 1
-vn 0 0 -1
-usemtl wall
-o low_x
-f 1//1 4//1 8//1 5//1
-o high_x
-f 2//2 6//2 7//2 3//2
-o low_y
-f 1//3 5//3 6//3 2//3
-o high_y
-f 4//4 3//4 7//4 8//4
-o low_z
-f 1//5 2//5 3//5 4//5
-o high_z
-f 5//6 8//6 7//6 6//6
-";
-
-/// The handout's light.
-pub fn light() -> PointLight {
-    handout(148, 1).stored_scene.lights()[0]
+/// A square from -1 to 1 at the height `z` that faces up.
+pub fn square(z: f32) -> [Triangle; 2] {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let [a, b, c, d] = corners.map(|(x, y)| Vec3::new(x, y, z));
+    [[a, b, c], [a, c, d]].map(|vertices| Triangle {
+        vertices,
+        normal: Vec3::Z,
+        parent_mesh_object: 0,
+        facet: 0,
+    })
 }
 
-/// The whole list of a run.
+/// A scene of `triangles` alone.
+pub fn scene_of(triangles: &[Triangle]) -> Scene {
+    Scene::new(Vec::new(), triangles.to_vec(), Vec::new())
+}
+
+/// The list of a run, by `trace_photon`.
 pub fn list(renderer: &PhotonMappingRenderer) -> Vec<PhotonRecord> {
     let mut list = Vec::new();
-    trace_list(renderer, 0..renderer.emitted(), |records, _| {
-        list.extend_from_slice(records);
-        Ok::<_, std::convert::Infallible>(())
-    })
-    .unwrap();
+    let all = 0..renderer.emitted();
+    renderer.generic_photon_map_generation(&mut Vec::new(), all, |photon, path, stored| {
+        list.extend(records(&renderer.stored_scene, photon, path, stored));
+    });
     list
 }
 
 /// The hash that names a list.
 pub fn hash(list: &[PhotonRecord]) -> String {
     let mut hash = ListHash::default();
-    list.iter().for_each(|record| hash.update(record));
+    hash.update(list);
     hash.hex()
 }
 
+/// What `trace_photon` stores of a photon on `ray` that has passed `path` and then draws `numbers`.
+/// The photon may draw no more numbers than these.
+pub fn trace_scripted(
+    renderer: &PhotonMappingRenderer,
+    ray: &Ray,
+    path: &mut Vec<PathVertex>,
+    remaining_bounces: i32,
+    numbers: &[f32],
+) -> Vec<Photon> {
+    let mut photon_map = Vec::new();
+    let mut rand = draws(numbers);
+    let intensity = Vec3::new(0.25, 0.5, 1.0);
+    renderer.trace_photon(&mut photon_map, ray, intensity, path, remaining_bounces, &mut rand);
+    photon_map
+}
+
 /// Numbers for a photon, one after another, as if drawn.
-pub fn draws<'a>(numbers: &'a [f32]) -> impl FnMut() -> f32 + 'a {
+pub fn draws(numbers: &[f32]) -> impl FnMut() -> f32 {
     let mut numbers = numbers.iter();
     move || *numbers.next().expect("the photon draws no more numbers than the test gives")
+}
+
+/// Whether `vector` has length 1.
+pub fn is_unit(vector: Vec3) -> bool {
+    (vector.as_dvec3().length() - 1.0).abs() < 3e-7
+}
+
+/// Unit vectors anywhere, and, half of them, next to the x axis.
+pub fn unit_normal() -> impl Strategy<Value = Vec3> {
+    let anywhere = (any::<u64>()).prop_map(|seed| {
+        let ray = light().generate_random_photon_ray(&mut photon_random(seed, 0));
+        ray.ray_direction().normalize()
+    });
+    let near_x = (any::<bool>(), 0_i32..30, 0_i32..30, any::<bool>(), any::<bool>()).prop_map(
+        |(negative, y, z, y_negative, z_negative)| {
+            let sign = |negative| if negative { -1.0_f32 } else { 1.0 };
+            let tiny =
+                |exponent: i32| if exponent == 0 { 0.0 } else { 0.5 / (1 << exponent) as f32 };
+            let y = sign(y_negative) * tiny(y);
+            Vec3::new(sign(negative), y, sign(z_negative) * tiny(z)).normalize()
+        },
+    );
+    prop_oneof![anywhere, near_x]
+}
+
+/// The numbers a photon can draw.
+pub fn uniform() -> impl Strategy<Value = f32> {
+    (0_u32..1 << 24).prop_map(|k| k as f32 / 16_777_216.0)
+}
+
+/// The mean of `values`, and by how many standard errors it differs from `expected`.
+pub fn standard_errors(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
+    let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    for value in values {
+        count += 1.0;
+        sum += value;
+        squares += value * value;
+    }
+    let mean = sum / count;
+    let error = ((squares / count - mean * mean) / count).sqrt();
+    (mean - expected) / error
+}
+
+/// By how many standard deviations `count` of `emitted` photons differs from `probability`.
+pub fn deviations(count: u64, emitted: u64, probability: f64) -> f64 {
+    let emitted = emitted as f64;
+    let deviation = (emitted * probability * (1.0 - probability)).sqrt();
+    (count as f64 - emitted * probability) / deviation
 }

@@ -1,0 +1,235 @@
+//! `photon-mapping compare`: where two lists, or two pictures, part.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::error::{CliError, print};
+use super::output::OutputFile;
+use super::run_args::RunArgs;
+use compare::pictures::compare_pictures;
+use compare::report::{Outcome, compare, scene_size};
+use photon_list::ply;
+use photon_list::reader::{self, PhotonList};
+use photon_list::record::Columns;
+use photon_list::run::RunPart;
+use photon_mapping::photon_list::PhotonRecord;
+use variants::reading::Reading;
+use variants::run::Run;
+
+/// The exit code when the lists or pictures differ.
+const DIFFERENT: u8 = 1;
+/// How every PNG file starts.
+const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// The options of `compare`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 the same, bit for bit or within the tolerance; 1 different; \
+                  2 could not be read.\n\
+                  Pictures count as the same when no channel of any pixel is further off than one \
+                  step of 255, and every pixel has or lacks its dot in both."
+)]
+pub struct CompareArgs {
+    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
+    /// with --seed or --photons a list alone, and the reference is traced on the spot
+    #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
+    files: Vec<PathBuf>,
+    /// For lists: how far apart two positions may be that count as one, as a part of the scene's
+    /// longest edge
+    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
+    tolerance: f32,
+    /// For lists: which part of the records may differ before the lists do
+    #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
+    allow: f32,
+    /// For pictures: where to write the difference picture
+    #[arg(long, value_name = "DIFF.png")]
+    out: Option<PathBuf>,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    run: RunArgs,
+}
+
+fn part(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| (0.0..=1.0).contains(number));
+    number.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+/// Compares, and prints the report.
+///
+/// # Errors
+/// When an input cannot be read or an output cannot be written.
+pub fn run(arguments: &CompareArgs) -> Result<u8, CliError> {
+    if let [reference, submission] = arguments.files.as_slice() {
+        match (is_picture(reference)?, is_picture(submission)?) {
+            (true, true) => return pictures(arguments, reference, submission),
+            (false, false) => {}
+            (is_first, _) => {
+                let list = if is_first { submission } else { reference };
+                return Err(CliError::Argument(format!(
+                    "{}: expected a picture like the other file, or two photon lists",
+                    list.display()
+                )));
+            }
+        }
+    }
+    if arguments.out.is_some() {
+        return Err(CliError::Argument("--out: expected two pictures to compare".to_owned()));
+    }
+    lists(arguments)
+}
+
+fn is_picture(path: &Path) -> Result<bool, CliError> {
+    let unreadable = |error| CliError::unreadable(path, error);
+    let mut file = File::open(path).map_err(unreadable)?;
+    // What a pipe has given once it does not give again.
+    if !file.metadata().map_err(unreadable)?.is_file() {
+        return Ok(false);
+    }
+    let mut start = [0; 8];
+    match file.read_exact(&mut start) {
+        Ok(()) => Ok(start == PNG),
+        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(false),
+        Err(error) => Err(unreadable(error)),
+    }
+}
+
+fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
+    let mut run = arguments.run.load()?;
+    let mut named = None;
+    let (reference, submission) = match arguments.files.as_slice() {
+        [reference, submission] => {
+            named = name_run(arguments, reference, &mut run);
+            (reader::load(reference)?, submission)
+        }
+        [submission, ..] if arguments.run.seed.is_some() || arguments.run.photons.is_some() => {
+            if is_picture(submission)? {
+                let submission = submission.display();
+                let message = format!("{submission}: expected a photon list, found a picture");
+                return Err(CliError::Argument(message));
+            }
+            (trace(&run), submission)
+        }
+        _ => {
+            return Err(CliError::Argument(
+                "expected REFERENCE and SUBMISSION, or --seed and --photons in place of REFERENCE"
+                    .to_owned(),
+            ));
+        }
+    };
+    let mut submission = reader::load(submission)?;
+    let mut notes = Vec::new();
+    let mut outside = 0;
+    if let Some(part) = &named {
+        if part.scene != run.part(0..0).scene {
+            notes.push("the reference is the list of another scene, light or reading".to_owned());
+        }
+        if submission.columns.photon && part.range != (0..part.emitted) {
+            let before = submission.records.len();
+            submission.records.retain(|record| part.range.contains(&u64::from(record.photon)));
+            outside = before - submission.records.len();
+            if outside > 0 {
+                let Range { start, end } = part.range;
+                notes.push(format!(
+                    "the reference has only the photons {start}..{end}; {outside} records of the \
+                     submission lie outside and are not compared"
+                ));
+            }
+        }
+    }
+    // Lists have world positions, and a scene need not be traced at its own size.
+    let tolerance = arguments.tolerance * run.placement.length_to_world(scene_size(run.scene()));
+    let mut report = compare(&reference, &submission, Some(&run), tolerance, arguments.allow);
+    if outside > 0 {
+        // What was left out cannot be called the same.
+        report.outcome = Outcome::Different;
+        report.sha256 = None;
+    }
+    notes.iter().for_each(|note| report.add_note(note));
+    finish(arguments, &report, &report.text(), report.outcome)
+}
+
+/// Sets what the arguments leave open to what the list `reference` says of its run, and gives that.
+fn name_run(arguments: &CompareArgs, reference: &Path, run: &mut Run) -> Option<RunPart> {
+    // What a pipe has given once it does not give again.
+    if !reference.is_file() {
+        return None;
+    }
+    let comments = ply::comments(reference).unwrap_or_default();
+    let part = RunPart::from_comments(&comments)?;
+    if arguments.run.seed.is_none() {
+        run.renderer.seed = part.seed;
+    }
+    if arguments.run.photons.is_none() {
+        run.renderer.photon_count = part.emitted;
+    }
+    if arguments.run.max_bounces.is_none() {
+        run.renderer.max_photon_bounces = part.max_bounces;
+    }
+    let reading = run.reading;
+    if part.scene != run.part(0..0).scene {
+        run.reading = Reading::LETTER_OF_THE_HANDOUT;
+        if part.scene != run.part(0..0).scene {
+            run.reading = reading;
+        }
+    }
+    Some(part)
+}
+
+fn trace(run: &Run) -> PhotonList {
+    let mut records: Vec<PhotonRecord> = Vec::new();
+    let traced: Result<_, std::convert::Infallible> =
+        run.trace_list(0..run.renderer.emitted(), |piece, _| {
+            records.extend_from_slice(piece);
+            Ok(())
+        });
+    let Ok(_) = traced;
+    let columns =
+        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
+    PhotonList { columns, records }
+}
+
+fn pictures(arguments: &CompareArgs, reference: &Path, submission: &Path) -> Result<u8, CliError> {
+    let (report, difference) =
+        compare_pictures(&read_picture(reference)?, &read_picture(submission)?);
+    if let Some((path, difference)) = arguments.out.as_ref().zip(difference) {
+        let mut file = OutputFile::create(path)?;
+        let mut png = io::BufWriter::new(file.file());
+        let written = difference.write_to(&mut png, image::ImageFormat::Png);
+        let flushed = written.map_err(io::Error::other).and_then(|()| io::Write::flush(&mut png));
+        drop(png);
+        flushed.map_err(|error| CliError::unwritable(path, error))?;
+        file.persist()?;
+    }
+    finish(arguments, &report, &report.text(), report.outcome)
+}
+
+fn read_picture(path: &Path) -> Result<image::RgbImage, CliError> {
+    let file = File::open(path).map_err(|error| CliError::unreadable(path, error))?;
+    let reader = image::ImageReader::with_format(io::BufReader::new(file), image::ImageFormat::Png);
+    let picture = reader.decode().map_err(|error| {
+        CliError::Argument(format!("{}: expected a PNG picture: {error}", path.display()))
+    })?;
+    Ok(picture.into_rgb8())
+}
+
+fn finish(
+    arguments: &CompareArgs,
+    report: &impl Serialize,
+    text: &str,
+    outcome: Outcome,
+) -> Result<u8, CliError> {
+    if arguments.json {
+        let json = serde_json::to_string(report).expect("a report has only plain values");
+        print(&(json + "\n"))?;
+    } else {
+        print(text)?;
+    }
+    Ok(if outcome == Outcome::Different { DIFFERENT } else { 0 })
+}

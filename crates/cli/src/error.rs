@@ -1,0 +1,66 @@
+//! What the command line can fail with; each is one clear line.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use model::obj::ModelError;
+use photon_list::error::ListError;
+
+/// Why a command could not be carried out.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// A model could not be read.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A photon list could not be read.
+    #[error(transparent)]
+    List(#[from] ListError),
+    /// A file could not be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file or folder could not be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Unwritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// An argument does not fit the others.
+    #[error("{0}")]
+    Argument(String),
+    /// Standard output could not be written.
+    #[error("standard output cannot be written: {0}")]
+    Output(io::Error),
+}
+
+impl CliError {
+    /// `path` could not be read because of `source`.
+    pub fn unreadable(path: &Path, source: io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
+
+    /// `path` could not be written because of `source`.
+    pub fn unwritable(path: &Path, source: io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), source }
+    }
+}
+
+/// Prints `text` to standard output. That its reader has closed it is the reader's choice, no error.
+///
+/// # Errors
+/// When standard output cannot be written.
+pub fn print(text: &str) -> Result<(), CliError> {
+    let mut output = io::stdout().lock();
+    io::Write::write_all(&mut output, text.as_bytes())
+        .and_then(|()| io::Write::flush(&mut output))
+        .or_else(|error| match error.kind() {
+            io::ErrorKind::BrokenPipe => Ok(()),
+            _ => Err(CliError::Output(error)),
+        })
+}

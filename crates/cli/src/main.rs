@@ -1,0 +1,107 @@
+//! The program `photon-mapping`: a file for every verb, each of which parses, calls and prints.
+
+mod beside_expected;
+mod compare;
+mod error;
+mod expect;
+mod explain;
+mod grade;
+mod merge;
+mod output;
+mod progress;
+mod render;
+mod report;
+mod run_args;
+mod run_summary;
+mod values;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The exit code of everything that could not be done.
+const FAILED: u8 = 2;
+
+#[derive(Debug, Parser)]
+#[command(
+    name = "photon-mapping",
+    version,
+    about = "The deterministic reference of Stanford CS148's Assignment 8, photon mapping",
+    after_help = "Without a command, photon-mapping renders: its options are those of 'render'.",
+    args_conflicts_with_subcommands = true
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    render: render::RenderArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Trace the photons, write their list, and draw the picture
+    Render(Box<render::RenderArgs>),
+    /// Hold a photon list (or a picture) against the reference
+    Compare(Box<compare::CompareArgs>),
+    /// Tell the whole story of one photon
+    Explain(Box<explain::ExplainArgs>),
+    /// Judge submissions of any generator: correct, or what was misread
+    Grade(grade::GradeArgs),
+    /// Compute how many hits are expected, without tracing a photon
+    Expect(expect::ExpectArgs),
+    /// Join the lists, or the count-only summaries, of adjoining ranges of one run
+    Merge(merge::MergeArgs),
+    /// Measure speed and accuracy, and write a page with plots and data
+    Report(report::ReportArgs),
+}
+
+fn main() -> ExitCode {
+    ExitCode::from(run(std::env::args_os()))
+}
+
+/// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
+/// code.
+fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) if !error.use_stderr() => {
+            // Help and version; a closed pipe is the reader's choice.
+            let _ = error.print();
+            return 0;
+        }
+        Err(error) => {
+            complain(&one_line(&error.to_string()));
+            return FAILED;
+        }
+    };
+    output::remove_unfinished_files_on_interrupt();
+    let result = match cli.command {
+        None => render::run(&cli.render),
+        Some(Command::Render(arguments)) => render::run(&arguments),
+        Some(Command::Expect(arguments)) => expect::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Explain(arguments)) => explain::run(&arguments),
+        Some(Command::Grade(arguments)) => grade::run(&arguments),
+        Some(Command::Merge(arguments)) => merge::run(&arguments),
+        Some(Command::Report(arguments)) => report::run(&arguments),
+    };
+    match result {
+        Ok(code) => code,
+        Err(error) => {
+            complain(&format!("error: {}", one_line(&error.to_string())));
+            FAILED
+        }
+    }
+}
+
+/// Prints `line` to standard error; where that cannot be written, the exit code alone must do.
+fn complain(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// The first paragraph of `text` on one line.
+fn one_line(text: &str) -> String {
+    let paragraph = text.split("\n\n").next().unwrap_or_default();
+    paragraph.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,87 @@
+//! The options that say which run is meant; several verbs share them.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::CliError;
+use super::values;
+use model::obj::{self, ModelLight};
+use model::placement::Placement;
+use photon_mapping::assignment8;
+use photon_mapping::scene::Scene;
+use variants::reading::Reading;
+use variants::run::Run;
+
+/// Which scene is meant.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// A Wavefront OBJ model, y up, instead of the handout's; it is turned so that z is up. Needs
+    /// --light
+    #[arg(long, value_name = "FILE.obj", requires = "light")]
+    scene: Option<PathBuf>,
+    /// A point light of the scene: its position (z up), then its colour, white if left out; may be
+    /// given several times, photons are shared by brightness
+    #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
+          allow_hyphen_values = true)]
+    light: Vec<ModelLight>,
+}
+
+impl SceneArgs {
+    /// Whether the handout's scene is meant.
+    pub fn is_built_in(&self) -> bool {
+        self.scene.is_none()
+    }
+
+    /// The scene, and where it stands.
+    ///
+    /// # Errors
+    /// When the model cannot be read.
+    pub fn load(&self) -> Result<(Scene, Placement), CliError> {
+        match &self.scene {
+            None => Ok((assignment8::create_scene(), Placement::WORLD)),
+            Some(path) => Ok(model::place(obj::load(path)?, &self.light)),
+        }
+    }
+}
+
+/// Which run of the reference is meant.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The key of all random numbers, a whole number below 2^64 [default: 148]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = values::whole(0, u64::MAX))]
+    pub seed: Option<u64>,
+    /// How many photons all lights send out together, up to 2^32 - 1 [default: 1000000]
+    #[arg(long, value_name = "N",
+          allow_negative_numbers = true, value_parser = values::whole(1, u64::from(u32::MAX)))]
+    pub photons: Option<u64>,
+    /// How often a photon may bounce at most, 0 to 1000 times [default: 1000]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(0_i32, 1000))]
+    pub max_bounces: Option<i32>,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
+    #[arg(long)]
+    pub letter_of_the_handout: bool,
+}
+
+impl RunArgs {
+    /// The run, nothing of it traced yet.
+    ///
+    /// # Errors
+    /// When the model cannot be read.
+    pub fn load(&self) -> Result<Run, CliError> {
+        let seed = self.seed.unwrap_or(assignment8::SEED);
+        let photons = self.photons.unwrap_or(assignment8::PHOTON_COUNT);
+        let (scene, placement) = self.scene.load()?;
+        let mut run = Run::of_scene(scene, placement, seed, photons);
+        run.renderer.max_photon_bounces =
+            self.max_bounces.unwrap_or(assignment8::MAX_PHOTON_BOUNCES);
+        if self.letter_of_the_handout {
+            run.reading = Reading::LETTER_OF_THE_HANDOUT;
+        }
+        Ok(run)
+    }
+}

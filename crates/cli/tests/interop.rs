@@ -1,0 +1,213 @@
+//! C++ against the reference: the headers of `interop/cpp`, and `compare` on lists made with them.
+
+mod support;
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use photon_list::reader::load;
+use photon_mapping::random::photon_random;
+use support::{folder, json, run_line};
+
+const PHOTONS: &str = "60000";
+
+/// Compiles `source` of `interop/cpp` into `folder`; `None`, with a message, where there is no
+/// compiler. In CI there must be one.
+fn compile(source: &str, folder: &Path) -> Option<PathBuf> {
+    compile_file(&headers().join(source), folder)
+}
+
+fn headers() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("interop/cpp")
+}
+
+fn compile_file(source: &Path, folder: &Path) -> Option<PathBuf> {
+    let program = folder.join(source.file_stem().expect("a file"));
+    let compiled = Command::new("g++")
+        .arg("-I")
+        .arg(headers())
+        .args(["-std=c++11", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-pedantic"])
+        .args(["-Werror", "-o"])
+        .args([&program, source])
+        .output();
+    match compiled {
+        Ok(output) => {
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            Some(program)
+        }
+        Err(error) if std::env::var_os("CI").is_some_and(|ci| ci == "true") => {
+            panic!("g++ cannot be run, and CI is set: {error}")
+        }
+        Err(error) => {
+            eprintln!("skipped: g++ cannot be run ({error}); nothing of interop/cpp was tested");
+            None
+        }
+    }
+}
+
+/// The list that `by_the_handout` writes with `arguments`.
+fn list(program: &Path, folder: &Path, arguments: &[&str]) -> PathBuf {
+    let path = folder.join("submission.csv");
+    let output = Command::new(program)
+        .args(["--seed", "148", "--photons", PHOTONS, "--out"])
+        .arg(&path)
+        .args(arguments)
+        .output()
+        .expect("the program runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    path
+}
+
+#[test]
+fn the_header_draws_the_references_numbers() {
+    let folder = folder();
+    let Some(program) = compile("stream_test.cpp", folder.path()) else { return };
+    let seeds = [0, 1, 148, u64::from(u32::MAX), 1 << 32, u64::MAX];
+    let streams = [0, 1, 2, 999_999, u64::from(u32::MAX), (1 << 40) + 7];
+    // Beyond one block of 16 words, and beyond four, which many implementations compute at once.
+    let counts = [1, 16, 17, 64, 300];
+    let mut requests = String::new();
+    let mut expected = String::new();
+    for seed in seeds {
+        for stream in streams {
+            for count in counts {
+                requests += &format!("{seed} {stream} {count}\n");
+                let mut rand = photon_random(seed, stream);
+                let draws: Vec<_> = (0..count)
+                    .map(|_| ((f64::from(rand()) * 2_147_483_648.0) as i64).to_string())
+                    .collect();
+                expected += &(draws.join(" ") + "\n");
+            }
+        }
+    }
+    for mode in ["--rand", "--floats"] {
+        let mut child = Command::new(&program)
+            .arg(mode)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the program runs");
+        let mut input = child.stdin.take().expect("stdin is piped");
+        let requests = requests.clone();
+        let writer = std::thread::spawn(move || input.write_all(requests.as_bytes()));
+        let output = child.wait_with_output().expect("the program ends");
+        writer.join().expect("the writer ends").expect("all requests are read");
+        // With --floats the program itself tries the divisions that students write.
+        assert!(output.status.success(), "{mode}");
+        if mode == "--rand" {
+            assert!(String::from_utf8_lossy(&output.stdout) == expected, "the numbers differ");
+        }
+    }
+}
+
+#[test]
+fn a_solution_by_the_handout_agrees() {
+    let folder = folder();
+    let Some(program) = compile("by_the_handout.cpp", folder.path()) else { return };
+    let list = list(&program, folder.path(), &[]);
+    let line = "compare --json --seed 148 --photons {} {}";
+    let report = json(run_line(line, &[Path::new(PHOTONS), &list]));
+    let count = |name: &str| report[name].as_u64().expect("a count");
+    assert!(count("reference_records") > 2000);
+    assert!(1000 * count("matched") >= 999 * count("reference_records"), "{report}");
+    assert!(1000 * count("extra") <= count("reference_records"), "{report}");
+    assert_eq!((count("wrong_intensity"), count("wrong_to_light")), (0, 0));
+}
+
+/// Vectors with [] instead of .x .y .z, and a ray instead of a direction, as the framework has it.
+const OTHER_TYPES: &str = r#"
+#include <limits>
+#include "photon_dump.hpp"
+struct Vector { float v[3]; float operator[](int i) const { return v[i]; } };
+struct Ray { Vector direction; Vector GetRayDirection() { return direction; } };
+struct Photon { Vector position, intensity; Ray toLightRay; };
+int main(int, char** argv) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<Photon> photons = {{{{0.1f, -2, 1e-30f}}, {{1e-6f, 1, 2}}, {{{0, 0, -1}}}},
+                                         {{{-nan, 0, 0}}, {{1, 1, 1}}, {{{0, 1, 0}}}}};
+    photon_dump::PhotonDump recorder;
+    recorder.begin_photon(4000000000u);
+    recorder.store(photons[0], 3);
+    recorder.store(photons[1], 1);
+    return photon_dump::dump(photons, argv[1]) && recorder.write(argv[2]) ? 0 : 1;
+}
+"#;
+
+#[test]
+fn photons_of_other_types_are_written() {
+    let folder = folder();
+    let source = folder.path().join("other_types.cpp");
+    std::fs::write(&source, OTHER_TYPES).expect("can be written");
+    let Some(program) = compile_file(&source, folder.path()) else { return };
+    let (plain, numbered) = (folder.path().join("plain.csv"), folder.path().join("numbered.csv"));
+    let status = Command::new(program).args([&plain, &numbered]).status();
+    assert!(status.expect("the program runs").success());
+    let (plain, numbered) = (load(&plain).expect("a list"), load(&numbered).expect("a list"));
+    assert!(plain.columns.to_light && !plain.columns.photon && numbered.columns.all());
+    for list in [&plain, &numbered] {
+        assert_eq!(list.records[0].position.to_array(), [0.1, -2.0, 1e-30]);
+        assert_eq!(list.records[0].intensity.to_array(), [1e-6, 1.0, 2.0]);
+        assert_eq!(list.records[0].to_light.to_array(), [0.0, 0.0, -1.0]);
+        assert!(list.records[1].position.x.is_nan());
+    }
+    let numbers = |place: usize| {
+        let record = &numbered.records[place];
+        (record.photon, record.bounce, record.surface)
+    };
+    assert_eq!((numbers(0), numbers(1)), ((4_000_000_000, 1, 3), (4_000_000_000, 2, 1)));
+}
+
+const MISTAKES: [(&str, &str, &str); 13] = [
+    ("direct-stored", "1000", "Photon Storage"),
+    ("bounce-off-by-one", "3", "Photon Storage"),
+    ("no-offset", "1000", "Hemisphere Ray Transformation"),
+    ("no-absolute-value", "1000", "Hemisphere Ray Transformation"),
+    ("nan-frame", "1000", "Hemisphere Ray Transformation"),
+    ("transposed-frame", "1000", "Hemisphere Ray Transformation"),
+    ("flipped-normal", "1000", "Hemisphere Ray Transformation"),
+    ("uniform-hemisphere", "1000", "Hemisphere Sampling"),
+    ("no-square-root", "1000", "Hemisphere Sampling"),
+    ("mean-roulette", "1000", "Photon Scattering/Absorption"),
+    ("red-roulette", "1000", "Photon Scattering/Absorption"),
+    ("no-roulette", "5", "Photon Scattering/Absorption"),
+    ("cube-directions", "1000", "Photon Emission"),
+];
+
+#[test]
+fn the_section_of_every_mistake_is_named() {
+    let folder = folder();
+    let Some(program) = compile("by_the_handout.cpp", folder.path()) else { return };
+    for (mistake, max_bounces, section) in MISTAKES {
+        let arguments = ["--mistake", mistake, "--max-bounces", max_bounces];
+        let list = list(&program, folder.path(), &arguments);
+        let line = "compare --json --seed 148 --photons {} --max-bounces {} {}";
+        let paths = [Path::new(PHOTONS), Path::new(max_bounces), &list];
+        let report = json(run_line(line, &paths).code(1));
+        let divergence = &report["first_divergence"];
+        assert_eq!(divergence["section"], section, "{mistake}: {divergence}");
+        assert!(divergence["photon"].is_u64() && divergence["bounce"].is_u64(), "{mistake}");
+        assert!(report["reading"].is_null(), "{mistake} is no fair reading: {report}");
+    }
+}
+
+#[test]
+fn fair_readings_are_named() {
+    let folder = folder();
+    let Some(program) = compile("by_the_handout.cpp", folder.path()) else { return };
+    let readings = [
+        ("literal", "t and b to the letter of the handout, not normalised"),
+        ("threshold-0.8", "fallback threshold 0.8"),
+        ("axis-z", "fallback axis (0, 0, 1)"),
+        ("offset-1e-4", "offset 1e-4 along the normal"),
+        ("offset-along-direction", "offset along the new direction"),
+    ];
+    for (reading, name) in readings {
+        let list = list(&program, folder.path(), &["--reading", reading]);
+        let line = "compare --json --seed 148 --photons {} {}";
+        let report = json(run_line(line, &[Path::new(PHOTONS), &list]).code(1));
+        assert_eq!(report["reading"], name, "{reading}: {report}");
+        let count = |name: &str| report[name].as_u64().expect("a count");
+        assert!(10 * count("reading_matched") >= 9 * count("reading_tried"), "{reading}");
+    }
+}

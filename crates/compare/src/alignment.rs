@@ -1,0 +1,266 @@
+//! Which record of one list belongs to which of the other.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use glam::Vec3;
+
+use super::position_index::{PositionIndex, is_near};
+use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
+
+/// A record of the reference (the first number) and of the submission (the second), by their places
+/// in the lists, that belong together; or one that has no counterpart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pairing {
+    /// Both lists have the record; it need not be in the same place.
+    Both(usize, usize),
+    /// Only the reference has it.
+    Missing(usize),
+    /// Only the submission has it.
+    Extra(usize),
+}
+
+/// Pairs the records of two lists, in the reference's order.
+///
+/// Lists that both tell the emitted photon are paired photon by photon, and within a photon by
+/// bounce where both tell it (see [`with_bounces`]); unless more records of that photon come to lie
+/// upon each other when paired by order, as they do when a submission counts from another bounce.
+/// All other lists are paired by order: the longest sequence of records, in the order of both
+/// lists, that lie within `tolerance` world units of each other, stays together, and what lies
+/// between is paired one by one; unless far more records match when their order is passed over, as
+/// in a list that comes out of a tree. So a missing or extra record puts nothing out of step. Time grows
+/// as n log n.
+pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Vec<Pairing> {
+    let lists = Lists { reference, submission, tolerance };
+    if !(reference.columns.photon && submission.columns.photon) {
+        let all = |list: &PhotonList| (0..list.records.len()).collect::<Vec<_>>();
+        let by_order = lists.by_order(&all(reference), &all(submission));
+        return lists.by_place(&by_order).unwrap_or(by_order);
+    }
+    let (reference_order, submission_order) = (sorted(reference), sorted(submission));
+    let mut pairings = Vec::new();
+    let (mut i, mut j) = (0, 0);
+    while i < reference_order.len() || j < submission_order.len() {
+        let photons = (
+            reference_order.get(i).map(|place| reference.records[*place].photon),
+            submission_order.get(j).map(|place| submission.records[*place].photon),
+        );
+        let photon = match photons {
+            (Some(a), Some(b)) => a.min(b),
+            (a, b) => a.or(b).unwrap_or_default(),
+        };
+        let of_reference = group(&reference.records, &reference_order, i, photon);
+        let of_submission = group(&submission.records, &submission_order, j, photon);
+        (i, j) = (of_reference.end, of_submission.end);
+        lists.one_photon(
+            &reference_order[of_reference],
+            &submission_order[of_submission],
+            &mut pairings,
+        );
+    }
+    pairings
+}
+
+/// The list with bounces where it tells only the photon: 1, 2, 3 in the order of its records, as if
+/// each photon's first hit, and only that one, were left out.
+pub fn with_bounces(list: &PhotonList) -> Cow<'_, PhotonList> {
+    if !list.columns.photon || list.columns.bounce {
+        return Cow::Borrowed(list);
+    }
+    let mut numbered = list.clone();
+    numbered.columns.bounce = true;
+    let mut bounces: HashMap<u32, u16> = HashMap::new();
+    for record in &mut numbered.records {
+        let bounce = bounces.entry(record.photon).or_default();
+        *bounce = bounce.saturating_add(1);
+        record.bounce = *bounce;
+    }
+    Cow::Owned(numbered)
+}
+
+/// The places of a list's records in order of photon, then bounce.
+fn sorted(list: &PhotonList) -> Vec<usize> {
+    let mut places: Vec<_> = (0..list.records.len()).collect();
+    // Absent bounces are all alike, and the sort is stable.
+    places.sort_by_key(|place| {
+        let record = &list.records[*place];
+        (record.photon, record.bounce)
+    });
+    places
+}
+
+/// The records from place `start` of `order` on that belong to `photon`.
+fn group(records: &[PhotonRecord], order: &[usize], start: usize, photon: u32) -> Range<usize> {
+    let belongs = |place: &&usize| records[**place].photon == photon;
+    start..start + order[start..].iter().take_while(belongs).count()
+}
+
+struct Lists<'lists> {
+    reference: &'lists PhotonList,
+    submission: &'lists PhotonList,
+    tolerance: f32,
+}
+
+impl Lists<'_> {
+    /// Pairs the records of one photon, given by their places in the lists.
+    fn one_photon(&self, reference: &[usize], submission: &[usize], out: &mut Vec<Pairing>) {
+        if !(self.reference.columns.bounce && self.submission.columns.bounce) {
+            out.extend(self.by_order(reference, submission));
+            return;
+        }
+        let by_bounce = self.by_bounce(reference, submission);
+        if self.near_pairs(&by_bounce) == reference.len().min(submission.len()) {
+            out.extend(by_bounce);
+            return;
+        }
+        let by_order = self.by_order(reference, submission);
+        let order_is_better = self.near_pairs(&by_order) > self.near_pairs(&by_bounce);
+        out.extend(if order_is_better { by_order } else { by_bounce });
+    }
+
+    fn by_bounce(&self, reference: &[usize], submission: &[usize]) -> Vec<Pairing> {
+        let mut pairings = Vec::new();
+        let (mut i, mut j) = (0, 0);
+        while i < reference.len() || j < submission.len() {
+            let a = reference.get(i).map(|place| self.reference.records[*place].bounce);
+            let b = submission.get(j).map(|place| self.submission.records[*place].bounce);
+            if a == b {
+                pairings.push(Pairing::Both(reference[i], submission[j]));
+                (i, j) = (i + 1, j + 1);
+            } else if b.is_none() || a.is_some_and(|a| b.is_some_and(|b| a < b)) {
+                pairings.push(Pairing::Missing(reference[i]));
+                i += 1;
+            } else {
+                pairings.push(Pairing::Extra(submission[j]));
+                j += 1;
+            }
+        }
+        pairings
+    }
+
+    /// Pairs records whatever their order is, each with one that lies near it; `None` when that is
+    /// no clear gain over `by_order`.
+    fn by_place(&self, by_order: &[Pairing]) -> Option<Vec<Pairing>> {
+        let (reference, submission) = (&self.reference.records, &self.submission.records);
+        let in_order = self.near_pairs(by_order);
+        let most = reference.len().min(submission.len());
+        if in_order == most {
+            return None;
+        }
+        let positions: Vec<_> = reference.iter().map(|record| record.position).collect();
+        let index = PositionIndex::new(&positions, self.tolerance);
+        let mut partners = vec![None; reference.len()];
+        let mut extra = Vec::new();
+        for (j, record) in submission.iter().enumerate() {
+            let near = index.near(record.position, j);
+            match near.into_iter().find(|i| partners[*i].is_none()) {
+                Some(i) => partners[i] = Some(j),
+                None => extra.push(Pairing::Extra(j)),
+            }
+        }
+        let found = submission.len() - extra.len();
+        let is_all = found == reference.len() && found == submission.len();
+        if !is_all && (2 * found < most || 4 * in_order > 3 * found) {
+            return None;
+        }
+        let of_reference = partners.into_iter().enumerate().map(|(i, partner)| match partner {
+            Some(j) => Pairing::Both(i, j),
+            None => Pairing::Missing(i),
+        });
+        Some(of_reference.chain(extra).collect())
+    }
+
+    fn near_pairs(&self, pairings: &[Pairing]) -> usize {
+        let is_near = |pairing: &&Pairing| match **pairing {
+            Pairing::Both(i, j) => is_near(
+                self.reference.records[i].position,
+                self.submission.records[j].position,
+                self.tolerance,
+            ),
+            _ => false,
+        };
+        pairings.iter().filter(is_near).count()
+    }
+
+    fn by_order(&self, reference: &[usize], submission: &[usize]) -> Vec<Pairing> {
+        let position = |list: &PhotonList, places: &[usize]| -> Vec<Vec3> {
+            places.iter().map(|place| list.records[*place].position).collect()
+        };
+        let anchors = common_subsequence(
+            &position(self.reference, reference),
+            &position(self.submission, submission),
+            self.tolerance,
+        );
+        let mut pairings = Vec::new();
+        let (mut i, mut j) = (0, 0);
+        let end = (reference.len(), submission.len());
+        for (anchor_i, anchor_j) in anchors.into_iter().chain([end]) {
+            while i < anchor_i && j < anchor_j {
+                pairings.push(Pairing::Both(reference[i], submission[j]));
+                (i, j) = (i + 1, j + 1);
+            }
+            pairings.extend(reference[i..anchor_i].iter().map(|place| Pairing::Missing(*place)));
+            pairings.extend(submission[j..anchor_j].iter().map(|place| Pairing::Extra(*place)));
+            if (anchor_i, anchor_j) != end {
+                pairings.push(Pairing::Both(reference[anchor_i], submission[anchor_j]));
+            }
+            (i, j) = (anchor_i + 1, anchor_j + 1);
+        }
+        pairings
+    }
+}
+
+/// The longest sequence of pairs of positions within `tolerance` of each other that is in the order
+/// of both lists.
+///
+/// J. W. Hunt and T. G. Szymanski, *A Fast Algorithm for Computing Longest Common Subsequences*
+/// (CACM 1977): since hardly two photons of a list lie in one place, there are about as many pairs
+/// as records.
+pub fn common_subsequence(
+    reference: &[Vec3],
+    submission: &[Vec3],
+    tolerance: f32,
+) -> Vec<(usize, usize)> {
+    let both_near = |(a, b): &(&Vec3, &Vec3)| is_near(**a, **b, tolerance);
+    let start = reference.iter().zip(submission).take_while(both_near).count();
+    let (a, b) = (&reference[start..], &submission[start..]);
+    let end = a.iter().rev().zip(b.iter().rev()).take_while(both_near).count();
+    let (a, b) = (&a[..a.len() - end], &b[..b.len() - end]);
+
+    // A pair, and the pair before it in the longest sequence that ends with it.
+    struct Link {
+        pair: (usize, usize),
+        before: Option<usize>,
+    }
+    let mut links: Vec<Link> = Vec::new();
+    // Of all sequences of length k + 1, the last link of the one that ends earliest in `a`.
+    let mut shortest: Vec<usize> = Vec::new();
+    let index = PositionIndex::new(a, tolerance);
+    for (j, position) in b.iter().enumerate() {
+        let around = (j as u64 * a.len() as u64 / b.len() as u64) as usize;
+        for i in index.near(*position, around).into_iter().rev() {
+            let length = shortest.partition_point(|link| links[*link].pair.0 < i);
+            let before = length.checked_sub(1).map(|before| shortest[before]);
+            links.push(Link { pair: (i, j), before });
+            if length == shortest.len() {
+                shortest.push(links.len() - 1);
+            } else {
+                shortest[length] = links.len() - 1;
+            }
+        }
+    }
+    let mut middle = Vec::new();
+    let mut link = shortest.last().copied();
+    while let Some(place) = link {
+        let (i, j) = links[place].pair;
+        middle.push((start + i, start + j));
+        link = links[place].before;
+    }
+    middle.reverse();
+    let (a_end, b_end) = (start + a.len(), start + b.len());
+    let head = (0..start).map(|place| (place, place));
+    let tail = (0..end).map(|place| (a_end + place, b_end + place));
+    head.chain(middle).chain(tail).collect()
+}

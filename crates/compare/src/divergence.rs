@@ -1,0 +1,309 @@
+//! The first difference, explained from the reference's own path.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::alignment::Pairing;
+use super::differences::Difference;
+use super::numbers::thousands;
+use super::verdict::{Observation, Verdict, judge};
+use crate::explain::{Ending, Hit, Story, explain, vector};
+use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
+use variants::run::Run;
+use variants::section::Section;
+
+/// So many differing photons are asked when the first one does not tell the section by itself.
+const WITNESSES: usize = 1000;
+/// So many emitted photons between two records are asked whether a record is theirs; about one in
+/// thirty stores any.
+const MOST_NEIGHBOURS: u64 = 500;
+
+/// Where two lists part first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Divergence {
+    /// The emitted photon, if a list tells it.
+    pub photon: Option<u64>,
+    /// The bounce of the record that differs, if a list tells it.
+    pub bounce: Option<usize>,
+    /// The section of the handout in which the submission does something else; none when the
+    /// reference's run is not known.
+    pub section: Option<Section>,
+    /// What the reference does.
+    pub reference: String,
+    /// What the submission does.
+    pub submission: String,
+    /// What speaks for the section.
+    pub reason: Option<String>,
+    /// Whether there is no other plausible explanation.
+    pub certain: bool,
+}
+
+/// What is compared.
+#[derive(Clone, Copy, Debug)]
+pub struct Lists<'lists> {
+    /// The reference.
+    pub reference: &'lists PhotonList,
+    /// The submission.
+    pub submission: &'lists PhotonList,
+    /// How the records of both belong together.
+    pub pairings: &'lists [Pairing],
+    /// How far apart two positions may be that count as one, in world units.
+    pub tolerance: f32,
+}
+
+impl Lists<'_> {
+    /// Describes the first of `differing`, which must not be empty; differences of place come
+    /// first, since another intensity or direction to the light is often the same for all records.
+    /// With the reference's `run`, also names the section.
+    pub fn first_divergence(
+        &self,
+        differing: &[(Pairing, Difference)],
+        run: Option<&Run>,
+    ) -> Divergence {
+        let in_place = differing.iter().find(|(_, difference)| *difference == Difference::Place);
+        let (pairing, difference) = *in_place.unwrap_or(&differing[0]);
+        if difference != Difference::Place {
+            return self.wrong_value(pairing, difference);
+        }
+        let (mut photon, mut bounce) = self.identity(pairing);
+        let found = run
+            .filter(|_| photon.is_none() && self.reference.columns.photon)
+            .and_then(|run| self.photon_of_extra(pairing, run));
+        if let Some((found_photon, found_bounce, _)) = &found {
+            (photon, bounce) = (Some(*found_photon), Some(*found_bounce));
+        }
+        let story = photon.zip(run).and_then(|(photon, run)| explain(run, photon));
+        let record = self.submission_record(pairing);
+        let places = differing
+            .iter()
+            .filter(|(_, difference)| *difference == Difference::Place)
+            .map(|(pairing, _)| *pairing);
+        let Some((story, run)) = story.zip(run) else {
+            let verdict =
+                run.and_then(|run| self.majority(places, run).or_else(|| only_extra(differing)));
+            return Divergence {
+                photon,
+                bounce,
+                section: verdict.as_ref().map(|verdict| verdict.section),
+                reference: match self.reference_record(pairing) {
+                    Some(record) => format!("stores a photon at {}", place(record)),
+                    None => "stores no such photon".to_owned(),
+                },
+                submission: submission_does(record),
+                certain: verdict.as_ref().is_some_and(|verdict| verdict.is_certain),
+                reason: verdict.map(|verdict| verdict.reason),
+            };
+        };
+        let only_missing =
+            differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Missing(_)));
+        let first = match found {
+            Some((_, _, verdict)) => Some(verdict),
+            None => self.judge(pairing, &story, run),
+        };
+        let is_known = self.submission.columns.photon || matches!(pairing, Pairing::Extra(_));
+        let verdict = match first {
+            Some(first) if first.is_certain && is_known => Some(first),
+            first => self.majority(places, run).or(first),
+        };
+        Divergence {
+            photon,
+            bounce,
+            section: verdict.as_ref().map(|verdict| verdict.section),
+            reference: reference_does(&story, bounce.unwrap_or(1)),
+            submission: submission_does(record),
+            // Photons that went elsewhere would have been stored elsewhere.
+            certain: verdict.as_ref().is_some_and(|verdict| verdict.is_certain || only_missing),
+            reason: verdict.map(|verdict| verdict.reason),
+        }
+    }
+
+    fn wrong_value(&self, pairing: Pairing, difference: Difference) -> Divergence {
+        let (photon, bounce) = self.identity(pairing);
+        let tell = |record: Option<&PhotonRecord>| {
+            let record = record.expect("both lists have a record whose values differ");
+            match difference {
+                Difference::Intensity => {
+                    format!("has the intensity {}", vector(&record.intensity.to_array()))
+                }
+                _ => format!("has to_light {}", vector(&record.to_light.to_array())),
+            }
+        };
+        let reason = match difference {
+            Difference::Intensity => "intensity is the light's colour by the photons it sends out",
+            _ => "to_light is the opposite of the photon ray's direction",
+        };
+        Divergence {
+            photon,
+            bounce,
+            section: Some(Section::PhotonStorage),
+            reference: tell(self.reference_record(pairing)),
+            submission: tell(self.submission_record(pairing)),
+            certain: true,
+            reason: Some(reason.to_owned()),
+        }
+    }
+
+    fn reference_record(&self, pairing: Pairing) -> Option<&PhotonRecord> {
+        match pairing {
+            Pairing::Both(i, _) | Pairing::Missing(i) => Some(&self.reference.records[i]),
+            Pairing::Extra(_) => None,
+        }
+    }
+
+    fn submission_record(&self, pairing: Pairing) -> Option<&PhotonRecord> {
+        match pairing {
+            Pairing::Both(_, j) | Pairing::Extra(j) => Some(&self.submission.records[j]),
+            Pairing::Missing(_) => None,
+        }
+    }
+
+    /// Photon and bounce of a difference, as far as the lists tell.
+    pub fn identity(&self, pairing: Pairing) -> (Option<u64>, Option<usize>) {
+        let of = |list: &PhotonList, record: Option<&PhotonRecord>| {
+            let columns = list.columns;
+            let photon = record.filter(|_| columns.photon).map(|record| u64::from(record.photon));
+            let bounce = record.filter(|_| columns.bounce).map(|record| record.bounce.into());
+            (photon, bounce)
+        };
+        let reference = of(self.reference, self.reference_record(pairing));
+        let submission = of(self.submission, self.submission_record(pairing));
+        (reference.0.or(submission.0), reference.1.or(submission.1))
+    }
+
+    fn judge(&self, pairing: Pairing, story: &Story, run: &Run) -> Option<Verdict> {
+        let (_, bounce) = self.identity(pairing);
+        Some(judge(&Observation {
+            story,
+            bounce: bounce?,
+            submission: self.submission_record(pairing),
+            is_same_photon: self.submission.columns.photon,
+            max_bounces: run.renderer.max_photon_bounces,
+            tolerance: self.tolerance,
+        }))
+    }
+
+    /// The photon and bounce to which an extra record belongs whose list does not tell it: that of
+    /// the photons next to it whose path explains it.
+    fn photon_of_extra(&self, extra: Pairing, run: &Run) -> Option<(u64, usize, Verdict)> {
+        let submission = self.submission_record(extra);
+        let at = self.pairings.iter().position(|pairing| *pairing == extra)?;
+        let photon_of = |pairing: &Pairing| {
+            self.reference_record(*pairing).map(|record| u64::from(record.photon))
+        };
+        let before = self.pairings[..at].iter().rev().find_map(photon_of).unwrap_or(0);
+        let after = self.pairings[at..].iter().find_map(photon_of);
+        let after = after.unwrap_or(before + MOST_NEIGHBOURS).min(before + MOST_NEIGHBOURS);
+        (before..=after).filter_map(|photon| explain(run, photon)).find_map(|story| {
+            (1..=story.hits.len()).find_map(|bounce| {
+                let verdict = judge(&Observation {
+                    story: &story,
+                    bounce,
+                    submission,
+                    is_same_photon: false,
+                    max_bounces: run.renderer.max_photon_bounces,
+                    tolerance: self.tolerance,
+                });
+                verdict.is_certain.then_some((story.photon, bounce, verdict))
+            })
+        })
+    }
+
+    /// The verdict of most of the photons that differ: of those that leave no doubt, if there are
+    /// any, else of all. Of each photon, only the first difference says anything.
+    fn majority(&self, differing: impl Iterator<Item = Pairing>, run: &Run) -> Option<Verdict> {
+        let mut votes: BTreeMap<(bool, Section), (usize, Verdict)> = BTreeMap::new();
+        let mut last = None;
+        for pairing in differing {
+            let (Some(photon), _) = self.identity(pairing) else { continue };
+            if last == Some(photon) {
+                continue;
+            }
+            last = Some(photon);
+            let verdict = explain(run, photon).and_then(|story| self.judge(pairing, &story, run));
+            if let Some(mut verdict) = verdict {
+                if verdict.is_certain {
+                    let photon = thousands(photon);
+                    verdict.reason = format!("as photon {photon} shows, {}", verdict.reason);
+                }
+                let key = (verdict.is_certain, verdict.section);
+                votes.entry(key).or_insert((0, verdict)).0 += 1;
+            }
+            if votes.values().map(|(count, _)| count).sum::<usize>() >= WITNESSES {
+                break;
+            }
+        }
+        let most =
+            votes.into_iter().max_by_key(|((is_certain, _), (count, _))| (*is_certain, *count));
+        most.map(|(_, (_, verdict))| verdict)
+    }
+}
+
+/// What remains when only records without numbers were added, and no path explains any of them.
+fn only_extra(differing: &[(Pairing, Difference)]) -> Option<Verdict> {
+    differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Extra(_))).then(|| Verdict {
+        section: Section::PhotonScatteringAbsorption,
+        reason: "the submission may scatter where the reference absorbs".to_owned(),
+        is_certain: false,
+    })
+}
+
+fn place(record: &PhotonRecord) -> String {
+    vector(&record.position.to_array())
+}
+
+fn submission_does(record: Option<&PhotonRecord>) -> String {
+    match record {
+        Some(record) => format!("stores a photon at {}", place(record)),
+        None => "stores no such photon".to_owned(),
+    }
+}
+
+/// What the reference's photon does between the hit before bounce `bounce` and that one.
+fn reference_does(story: &Story, bounce: usize) -> String {
+    let Some(last) = story.hits.last() else {
+        return "leaves the light without hitting anything".to_owned();
+    };
+    let Some(before) = bounce.checked_sub(1) else {
+        return at_first_hit(&story.hits[0]);
+    };
+    let Some(before) = story.hits.get(before) else {
+        return format!("has ended at bounce {} on {}", last.bounce, last.surface);
+    };
+    let Some(hit) = story.hits.get(bounce) else {
+        return match story.ending {
+            Ending::Absorbed => format!(
+                "is absorbed at bounce {} on {} ({} >= P_r {})",
+                before.bounce, before.surface, before.roulette, before.survival
+            ),
+            Ending::LeftTheScene => format!(
+                "scatters at bounce {} on {} and leaves the scene",
+                before.bounce, before.surface
+            ),
+            Ending::BounceLimit => {
+                format!("ends at bounce {} on {}, the last one allowed", last.bounce, last.surface)
+            }
+        };
+    };
+    format!(
+        "scatters at bounce {} on {} ({} < P_r {}) and is stored on {} at {}",
+        before.bounce,
+        before.surface,
+        before.roulette,
+        before.survival,
+        hit.surface,
+        vector(&hit.position)
+    )
+}
+
+/// What the reference's photon does at `hit`, which comes straight from the light: of this hit
+/// speaks bounce 0 of a submission that stores it, or counts from 0.
+fn at_first_hit(hit: &Hit) -> String {
+    let (decision, sign) = if hit.scattered { ("scatters", "<") } else { ("is absorbed", ">=") };
+    format!(
+        "does not store the hit straight from the light on {}, and {decision} there ({} {sign} P_r \
+         {})",
+        hit.surface, hit.roulette, hit.survival
+    )
+}

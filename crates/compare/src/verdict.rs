@@ -1,0 +1,231 @@
+//! To which section of the handout does a difference belong?
+
+use glam::{Mat3, Vec3};
+
+use super::hypotheses::hypotheses;
+use super::position_index::is_near;
+use crate::explain::{Ending, Hit, Story};
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::sampling::sample_hemisphere;
+use variants::section::Section;
+
+/// What a difference is put down to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The section of the handout.
+    pub section: Section,
+    /// What speaks for it, as a clause.
+    pub reason: String,
+    /// Whether the one photon looked at leaves no other plausible explanation.
+    pub is_certain: bool,
+}
+
+/// One place at which the lists part.
+#[derive(Clone, Copy, Debug)]
+pub struct Observation<'run> {
+    /// What the reference did.
+    pub story: &'run Story,
+    /// The bounce of the record that differs.
+    pub bounce: usize,
+    /// The submission's record; none when it is missing.
+    pub submission: Option<&'run PhotonRecord>,
+    /// Whether the record is known to be this photon's; otherwise it only stands in its place.
+    pub is_same_photon: bool,
+    /// How often the reference's photons may bounce.
+    pub max_bounces: i32,
+    /// How far apart two positions may be that count as one, in world units.
+    pub tolerance: f32,
+}
+
+fn certain(section: Section, reason: impl Into<String>) -> Verdict {
+    Verdict { section, reason: reason.into(), is_certain: true }
+}
+
+fn guess(section: Section, reason: impl Into<String>) -> Verdict {
+    Verdict { section, reason: reason.into(), is_certain: false }
+}
+
+impl Observation<'_> {
+    /// A verdict without doubt if the record is this photon's.
+    fn sure(&self, section: Section, reason: impl Into<String>) -> Verdict {
+        Verdict { section, reason: reason.into(), is_certain: self.is_same_photon }
+    }
+}
+
+/// Names the section in which the submission did something else than the reference.
+pub fn judge(observation: &Observation) -> Verdict {
+    let Observation { story, bounce, tolerance, .. } = *observation;
+    let Some(record) = observation.submission else {
+        return judge_missing(observation);
+    };
+    let Some(first) = story.hits.first() else {
+        return observation.sure(Section::PhotonEmission, other_emission(story));
+    };
+    // Where lists number bounces in different ways, the path may be shorter than the number says.
+    let previous = &story.hits[bounce.clamp(1, story.hits.len()) - 1];
+    if !record.position.is_finite() {
+        return judge_not_finite(previous);
+    }
+    let to_light = unit(record.to_light);
+    if is_near(record.position, first.point(), tolerance) {
+        let emission = Vec3::from_array(story.emission.direction);
+        let comes_from_light = to_light.map(|to_light| to_light.dot(emission).abs() > 0.9999);
+        let reason = "the hit straight from the light is stored";
+        return match comes_from_light {
+            Some(false) => judge_same_place(first),
+            Some(true) => certain(Section::PhotonStorage, reason),
+            None if !first.scattered => certain(Section::PhotonStorage, reason),
+            // Were direct hits stored, others would show it without doubt.
+            None => Verdict { is_certain: false, ..judge_same_place(first) },
+        };
+    }
+    if is_near(record.position, previous.point(), tolerance) && previous.scattered {
+        return judge_same_place(previous);
+    }
+    let way = record.position - previous.point();
+    let comes_from_previous =
+        to_light.map(|to_light| way.cross(to_light).length()).map(|aside| aside < 20.0 * tolerance);
+    if comes_from_previous == Some(false) {
+        return judge_other_origin(observation);
+    }
+    if !previous.scattered {
+        let reason = "the submission scatters where the reference absorbs";
+        let section = Section::PhotonScatteringAbsorption;
+        let is_sure = comes_from_previous == Some(true) || bounce > 1;
+        return if is_sure { observation.sure(section, reason) } else { guess(section, reason) };
+    }
+    if story.ending == Ending::BounceLimit && story.hits.len() == bounce {
+        return observation
+            .sure(Section::PhotonStorage, "the path goes on beyond the last bounce allowed");
+    }
+    judge_direction(observation, previous, way).unwrap_or_else(|| {
+        if bounce == 1 && comes_from_previous.is_none() {
+            guess(Section::PhotonEmission, "the photon may have hit another place first")
+        } else {
+            guess(Section::HemisphereSampling, "the photon scatters in another direction")
+        }
+    })
+}
+
+fn judge_missing(observation: &Observation) -> Verdict {
+    if observation.bounce as i64 == i64::from(observation.max_bounces) {
+        return guess(
+            Section::PhotonStorage,
+            "nothing is stored at the last bounce allowed: the path ends only when \
+             remainingBounces is less than 0",
+        );
+    }
+    guess(
+        Section::PhotonScatteringAbsorption,
+        "the submission absorbs where the reference scatters",
+    )
+}
+
+fn judge_not_finite(previous: &Hit) -> Verdict {
+    let section = Section::HemisphereRayTransformation;
+    let [x, y, z] = previous.normal;
+    if x.abs() > 0.99 {
+        let reason = format!(
+            "the normal ({x}, {y}, {z}) is parallel to (1, 0, 0), so that t has no length, and \
+             normalising it gives NaN"
+        );
+        return certain(section, reason);
+    }
+    guess(section, "the submission's position is not a number")
+}
+
+fn judge_same_place(hit: &Hit) -> Verdict {
+    let reason = format!(
+        "the scattered ray met the surface it left ({}): it must start off the surface",
+        hit.surface
+    );
+    certain(Section::HemisphereRayTransformation, reason)
+}
+
+/// The submission's photon came from elsewhere than where the reference's bounced last.
+fn judge_other_origin(observation: &Observation) -> Verdict {
+    if observation.bounce > 1 {
+        return guess(Section::PhotonStorage, "to_light does not point to the hit before");
+    }
+    observation.sure(Section::PhotonEmission, other_emission(observation.story))
+}
+
+fn other_emission(story: &Story) -> String {
+    let draws = match story.emission.tries.len() - 1 {
+        0 => "at the first try".to_owned(),
+        1 => "after a rejected try".to_owned(),
+        rejected => format!("after {rejected} rejected tries"),
+    };
+    format!("the photon left the light in another direction than the one taken {draws}")
+}
+
+/// Judges the direction `way`, of any length, in which the submission's photon left `hit`.
+fn judge_direction(observation: &Observation, hit: &Hit, way: Vec3) -> Option<Verdict> {
+    let tolerance = observation.tolerance;
+    let (Some(u1), Some(u2), Some(tangent), Some(bitangent), Some(expected)) =
+        (hit.u1, hit.u2, hit.tangent, hit.bitangent, hit.direction)
+    else {
+        return None;
+    };
+    if way.length() < 50.0 * tolerance {
+        return None;
+    }
+    // The start of the ray may be off the hit by the offset, and the end by rounding.
+    let allowed = 1e-3 + 2.0 * tolerance / way.length();
+    let direction = way.normalize();
+    if direction.distance(Vec3::from_array(expected)) < allowed {
+        let reason = "the direction is right, but the scattered ray starts elsewhere";
+        return Some(guess(Section::HemisphereRayTransformation, reason));
+    }
+    let normal = Vec3::from_array(hit.normal);
+    let frame = Mat3::from_cols(tangent.into(), bitangent.into(), normal);
+    let local = sample_hemisphere(u1, u2);
+    let fits = |hypothesis: &Vec3| {
+        hypothesis.try_normalize().is_some_and(|it| it.distance(direction) < allowed)
+    };
+    for (section, reason, hypothesis) in hypotheses(frame, local, u1, u2) {
+        if fits(&hypothesis) {
+            return Some(certain(section, reason));
+        }
+    }
+    // With columns of another length than 1 the transpose is not the inverse.
+    let orthonormal =
+        Mat3::from_cols(frame.x_axis.normalize_or_zero(), frame.y_axis.normalize_or_zero(), normal);
+    let found = orthonormal.transpose() * direction;
+    let (section, reason) = judge_tangent_space(found, local.normalize(), allowed)?;
+    Some(observation.sure(section, reason))
+}
+
+/// Judges a direction that no hypothesis explains by what is left of the right one: `found` and
+/// `expected` are unit vectors in tangent space.
+fn judge_tangent_space(
+    found: Vec3,
+    expected: Vec3,
+    allowed: f32,
+) -> Option<(Section, &'static str)> {
+    let around = |v: Vec3| Vec3::new(v.x, v.y, 0.0).normalize_or_zero();
+    if found.z < -allowed {
+        return Some((Section::HemisphereRayTransformation, "the photon leaves below the surface"));
+    }
+    // Near the normal the azimuth means nothing.
+    let lowest = 0.1;
+    let has_azimuth = found.truncate().length() > lowest && expected.truncate().length() > lowest;
+    if has_azimuth && around(found).distance(around(expected)) < allowed / lowest {
+        return Some((
+            Section::HemisphereSampling,
+            "the azimuth is right, the angle to the normal is not",
+        ));
+    }
+    if (found.z - expected.z).abs() < allowed {
+        return Some((
+            Section::HemisphereRayTransformation,
+            "the angle to the normal is right, the azimuth is not",
+        ));
+    }
+    None
+}
+
+/// `vector` if it is a unit vector, as a direction to the light should be.
+fn unit(vector: Vec3) -> Option<Vec3> {
+    ((vector.length() - 1.0).abs() < 0.01).then_some(vector)
+}

@@ -1,0 +1,128 @@
+//! What all differences together say, where each by itself would mislead.
+
+use std::collections::HashSet;
+
+use super::alignment::Pairing;
+use super::differences::Difference;
+use super::divergence::Lists;
+use super::numbers::thousands;
+use super::verdict::Verdict;
+use variants::run::Run;
+use variants::section::Section;
+
+/// So many records beyond a bounce must be missing before it is called a limit without doubt.
+const ENOUGH_BEYOND: usize = 5;
+
+/// The verdict on the lists as a whole, if `differing` fits one, for `run`'s run.
+pub fn judge_whole(
+    lists: &Lists,
+    differing: &[(Pairing, Difference)],
+    run: &Run,
+) -> Option<Verdict> {
+    stored_twice(lists, differing)
+        .or_else(|| other_count(lists, differing, run.renderer.emitted()))
+        .or_else(|| smaller_limit(lists, differing, run.renderer.max_photon_bounces))
+}
+
+fn places(differing: &[(Pairing, Difference)]) -> impl Iterator<Item = Pairing> {
+    let in_place = differing.iter().filter(|(_, difference)| *difference == Difference::Place);
+    in_place.map(|(pairing, _)| *pairing)
+}
+
+fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Verdict> {
+    let Pairing::Extra(first) = places(differing).next()? else { return None };
+    let rows: HashSet<_> = lists
+        .pairings
+        .iter()
+        .filter_map(|pairing| match *pairing {
+            Pairing::Both(_, j) => Some(lists.submission.records[j].to_row()),
+            _ => None,
+        })
+        .collect();
+    rows.contains(&lists.submission.records[first].to_row()).then(|| Verdict {
+        section: Section::PhotonStorage,
+        reason: "the photon is stored twice".to_owned(),
+        is_certain: true,
+    })
+}
+
+fn smaller_limit(
+    lists: &Lists,
+    differing: &[(Pairing, Difference)],
+    max_bounces: i32,
+) -> Option<Verdict> {
+    let bounce = |place: usize| lists.reference.records[place].bounce;
+    let missing: Option<Vec<_>> = places(differing)
+        .map(|pairing| match pairing {
+            Pairing::Missing(i) => Some(bounce(i)),
+            _ => None,
+        })
+        .collect();
+    let missing = missing?;
+    let both = lists.pairings.iter().filter_map(|pairing| match *pairing {
+        Pairing::Both(i, _) => Some(bounce(i)),
+        _ => None,
+    });
+    let last = both.max()?;
+    // At the last bounce allowed it is not another limit, but another way to count down to it.
+    if *missing.iter().min()? <= last || i32::from(last) + 1 >= max_bounces {
+        return None;
+    }
+    Some(Verdict {
+        section: Section::PhotonStorage,
+        reason: format!(
+            "the submission ends paths after {last} bounces: all that is missing lies beyond"
+        ),
+        is_certain: missing.len() >= ENOUGH_BEYOND,
+    })
+}
+
+fn other_count(
+    lists: &Lists,
+    differing: &[(Pairing, Difference)],
+    emitted: u64,
+) -> Option<Verdict> {
+    if !(lists.reference.columns.intensity && lists.submission.columns.intensity) {
+        return None;
+    }
+    let ratios = lists.pairings.iter().filter_map(|pairing| match *pairing {
+        Pairing::Both(i, j) => {
+            let [a, b] = [&lists.reference.records[i], &lists.submission.records[j]];
+            Some(a.intensity.max_element() / b.intensity.max_element())
+        }
+        _ => None,
+    });
+    let ratios: Vec<_> = ratios.collect();
+    let ratio = *ratios.first()?;
+    let is_constant = ratios.iter().all(|other| (other / ratio - 1.0).abs() < 1e-3);
+    let count = (f64::from(ratio) * emitted as f64).round();
+    if !is_constant || (ratio - 1.0).abs() < 1e-3 || !(1.0..1e15).contains(&count) {
+        return None;
+    }
+    let photon_limit = count * (1.0 + 1e-3);
+    let (mut beyond, mut any) = (true, false);
+    for pairing in places(differing) {
+        any = true;
+        beyond &= match pairing {
+            Pairing::Missing(i) => {
+                f64::from(lists.reference.records[i].photon) >= count * (1.0 - 1e-3)
+            }
+            Pairing::Extra(j) => {
+                let photon = lists.submission.records[j].photon;
+                !lists.submission.columns.photon
+                    || (u64::from(photon) >= emitted && f64::from(photon) < photon_limit)
+            }
+            Pairing::Both(..) => false,
+        };
+    }
+    (beyond && any).then(|| Verdict {
+        section: Section::PhotonEmission,
+        reason: format!(
+            "the submission emits about {} photons, the reference {}: intensities and photons \
+             both say so",
+            thousands(count as u64),
+            thousands(emitted)
+        ),
+        is_certain: true,
+    })
+}

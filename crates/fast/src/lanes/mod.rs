@@ -1,0 +1,138 @@
+//! The fast path: many photons side by side, to the bits of
+//! [`PhotonMappingRenderer::trace_photon`]. Nobody needs to read this to understand photon mapping.
+//!
+//! A wave of photons takes each step together: [`emission`] draws their directions in the lanes of
+//! the processor's vectors, [`outlook`] tells what a photon from a light may meet and [`first_hit`]
+//! what it meets, [`closest_hit`] what a scattered one meets, [`scattering`] sends those that survive
+//! the roulette on, and [`wave`] is the loop around them. [`picture`] sends camera and shadow rays the
+//! same way. [`width`] chooses the vector instructions when the program runs.
+//!
+//! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and this
+//! module may only be another order of the same roundings. What can be shared is called, not copied:
+//! the edge functions, the frame of a surface, the offset of a ray, the shares of the lights, and
+//! scalar tracing wherever a lane is in doubt. What must be written again is small, one formula a
+//! file, and each has a test that holds it to the scalar code by bits, exhaustively where there are
+//! few enough inputs. Over all of it, `tests/lanes.rs` traces random scenes, lights, seeds, ranges
+//! and bounces through both paths and every width, and compares records by bits; and the goldens of
+//! the default run pass through both. Who changes `trace_photon` sees these tests fail until the
+//! same change is made here; a reading or scene that the lanes do not know goes to `trace_photon`,
+//! which [`LaneTracer::new`] alone decides.
+
+pub mod chacha;
+pub mod closest_hit;
+pub mod draws;
+pub mod emission;
+pub mod first_hit;
+pub mod offset;
+pub mod outlook;
+pub mod picture;
+pub mod scattering;
+pub mod trigonometry;
+pub mod wave;
+pub mod width;
+
+use std::ops::Range;
+
+use glam::{Mat3, Vec3};
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use photon_mapping::rendering::sampling::tangent_frame;
+use photon_mapping::scene::point_light::PointLight;
+use photon_mapping::scene::triangle::Triangle;
+
+use closest_hit::SharedCorners;
+use offset::Offset;
+use outlook::Outlook;
+use width::Width;
+
+/// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
+///
+/// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, all triangles in
+/// lanes beside the tree (AVX2, Zen 3; `benches/speed.rs`): 22 and 62 for 24 triangles, 38 and 87 for
+/// 48, 81 and 99 for 96, 98 and 104 for 128, 172 and 155 for 192. Lanes also draw many photons' numbers
+/// at once, which is why they keep the tie.
+pub const MOST_TRIANGLES: usize = 128;
+
+/// Traces the photons of one renderer in lanes.
+#[derive(Clone, Debug)]
+pub struct LaneTracer<'renderer> {
+    renderer: &'renderer PhotonMappingRenderer,
+    width: Width,
+    corners: SharedCorners,
+    surfaces: Vec<Surface>,
+    offset: Offset,
+    /// What each light sees.
+    outlooks: Vec<Outlook>,
+}
+
+/// What a photon needs to know of a triangle that it hits.
+#[derive(Clone, Copy, Debug)]
+struct Surface {
+    mesh_object: u16,
+    probability_of_reflection: f32,
+    /// The columns of [`tangent_frame`], one after another.
+    frame: [f32; 9],
+}
+
+impl Surface {
+    fn new(renderer: &PhotonMappingRenderer, triangle: &Triangle, frame: Mat3) -> Option<Self> {
+        let mesh_object = &renderer.stored_scene.mesh_objects()[triangle.parent_mesh_object];
+        Some(Self {
+            mesh_object: u16::try_from(triangle.parent_mesh_object).ok()?,
+            probability_of_reflection: mesh_object.material.base_diffuse_reflection().max_element(),
+            frame: frame.to_cols_array(),
+        })
+    }
+}
+
+impl<'renderer> LaneTracer<'renderer> {
+    /// Prepares `renderer`'s scene for vectors of `width`. `None` when the scene or the run is too large
+    /// for lanes.
+    pub fn new(renderer: &'renderer PhotonMappingRenderer, width: Width) -> Option<Self> {
+        Self::with_frames(renderer, width, tangent_frame, Offset::AsNeeded)
+    }
+
+    /// As [`Self::new`], for photons that leave a surface with the unit normal n through the matrix
+    /// `tangent_frame(n)`, whose last column must be n, from a start at `offset`.
+    pub fn with_frames(
+        renderer: &'renderer PhotonMappingRenderer,
+        width: Width,
+        tangent_frame: impl Fn(Vec3) -> Mat3,
+        offset: Offset,
+    ) -> Option<Self> {
+        let scene = &renderer.stored_scene;
+        if scene.triangles().len() > MOST_TRIANGLES || renderer.emitted() > 1 << 32 {
+            return None;
+        }
+        let surface =
+            |triangle: &Triangle| Surface::new(renderer, triangle, tangent_frame(triangle.normal));
+        let surfaces: Vec<Surface> =
+            scene.triangles().iter().map(surface).collect::<Option<_>>()?;
+        let reflection: Vec<f32> = surfaces.iter().map(|s| s.probability_of_reflection).collect();
+        let outlook = |light: &PointLight| Outlook::new(scene, light.position, &reflection);
+        Some(Self {
+            renderer,
+            width,
+            corners: SharedCorners::new(scene),
+            surfaces,
+            offset,
+            outlooks: scene.lights().iter().map(outlook).collect(),
+        })
+    }
+
+    /// Traces the photons numbered `photons` on this thread: the records of
+    /// [`variants::trace::trace_piece`], bit for bit.
+    pub fn trace_piece(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        let mut records = Vec::new();
+        let lights = self.renderer.stored_scene.lights();
+        let of_lights = self.renderer.photons_of_lights();
+        for ((light, outlook), of_light) in lights.iter().zip(&self.outlooks).zip(of_lights) {
+            let wave = of_light.start.max(photons.start)..of_light.end.min(photons.end);
+            if !wave.is_empty() {
+                let light_intensity = light.color / (of_light.end - of_light.start) as f32;
+                self.trace_wave(light, outlook, light_intensity, wave, &mut records);
+            }
+        }
+        records
+    }
+}

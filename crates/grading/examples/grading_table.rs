@@ -1,0 +1,343 @@
+//! How good the grader is with lists: how often it calls correct ones incorrect, and which misreadings it
+//! finds and names. Prints the tables of `golden/grading.md`.
+//!
+//! `cargo run --release --example grading_table -- [--false-alarms N] [--seeds N] [--only MISREADING]`
+
+use fast::lanes::offset::Offset;
+use glam::{DVec3, Vec3};
+use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
+use grading::observation::observe;
+use grading::places::{Place, Places};
+use grading::signature::{Effort, Signatures};
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
+use photon_mapping::assignment8::create_scene;
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::random::photon_random;
+use rayon::prelude::*;
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
+use variants::pairs::pairs;
+use variants::reading::{Reading, TangentBasis};
+use variants::variation::{FACETS, Simulation, Variation};
+
+/// What a list tells besides positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Content {
+    /// Nothing, and the number of photons sent out is not known.
+    PositionsAlone,
+    /// Nothing, but the course knows the number.
+    PositionsAndNumber,
+    /// All columns.
+    Everything,
+}
+
+const CONTENTS: [Content; 3] =
+    [Content::PositionsAlone, Content::PositionsAndNumber, Content::Everything];
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let (mut alarms, mut seeds, mut only) = (20_000, 100, String::new());
+    while let (Some(option), Some(value)) = (arguments.next(), arguments.next()) {
+        let number = || value.parse().expect("a whole number");
+        match option.as_str() {
+            "--false-alarms" => alarms = number(),
+            "--seeds" => seeds = number(),
+            "--only" => only = value,
+            _ => panic!("expected --false-alarms N, --seeds N or --only ID, found {option}"),
+        }
+    }
+    let places = Places::new(&create_scene());
+    let expectations = Expectations::new(places.clone(), Signatures::of_assignment8());
+    println!("# How good the grader is with lists\n");
+    let small_limit = Signatures::measure(&places, SMALL_LIMIT, Effort::QUICK);
+    let with_small_limit = Expectations::new(places, small_limit);
+    false_alarms(alarms, &expectations, &with_small_limit);
+    detection(seeds, &only, &expectations, &with_small_limit);
+    if only.is_empty() {
+        two_at_once(seeds, &expectations);
+    }
+}
+
+/// Numbers for the settings of a simulated submission.
+struct Settings(Box<dyn FnMut() -> f32 + Send>);
+
+impl Settings {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(f64::from((self.0)()))
+    }
+
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[((self.0)() * choices.len() as f32) as usize]
+    }
+}
+
+fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expectations) {
+    // Most of the time goes to the largest lists, so they are fewer.
+    let decades = [
+        (1e4, 1e5, count / 2, expectations),
+        (1e5, 1e6, 7 * count / 20, expectations),
+        (1e6, 1e7, 3 * count / 20, expectations),
+        (1e4, 1e6, count / 4, with_small_limit),
+    ];
+    println!("## Correct submissions called incorrect\n");
+    println!(
+        "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to 1e-3 along \
+         the new direction, positions up to 0.007 off their surface, two generators, with and without the \
+         number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a list, corrected for the number of tests; below \
+         {SIGNIFICANCE:.0e} it is called incorrect.\n"
+    );
+    println!("| sent out | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
+    println!("|---|---|---|---|---|---|");
+    let mut all = [0; 5];
+    for (decade, (low, high, count, expectations)) in decades.into_iter().enumerate() {
+        let p_values: Vec<(f64, bool)> = (0..count)
+            .into_par_iter()
+            .map(|index| {
+                correct_submission(decade as u64 * 1_000_000 + index, low, high, expectations)
+            })
+            .collect();
+        let below = |limit: f64| p_values.iter().filter(|(p, _)| *p < limit).count();
+        let row = [
+            p_values.len(),
+            below(1e-2),
+            below(1e-3),
+            below(1e-4),
+            p_values.iter().filter(|(_, is_alarm)| *is_alarm).count(),
+        ];
+        let max_bounces = expectations.signatures.max_bounces;
+        let bounces = match max_bounces {
+            SMALL_LIMIT => format!(", at most {max_bounces} bounces"),
+            _ => String::new(),
+        };
+        let row_of_text = row.map(|n| n.to_string()).join(" | ");
+        println!("| {low:.0e} to {high:.0e}{bounces} | {row_of_text} |");
+        all.iter_mut().zip(row).for_each(|(sum, n)| *sum += n);
+    }
+    println!("| all | {} |\n", all.map(|n| n.to_string()).join(" | "));
+}
+
+/// The p-value of a correct submission, and whether it is called incorrect.
+fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectations) -> (f64, bool) {
+    let mut settings = Settings(Box::new(photon_random(148_000, index)));
+    let emitted = settings.between(low, high) as u64;
+    let reading = Reading {
+        tangent_basis: settings
+            .one_of(&[TangentBasis::Normalised, TangentBasis::LetterOfTheHandout]),
+        fallback_threshold: settings
+            .one_of(&[0.99, 0.999, 0.95, 0.9, 0.8, 0.957, 0.9545, 0.5, 0.2]),
+        fallback_axis: settings.one_of(&[Vec3::Y, Vec3::Z]),
+        offset: match settings.one_of(&[0, 1, 2]) {
+            0 => Reading::REFERENCE.offset,
+            1 => Offset::AlongNormal(settings.between(5e-7, 1e-3) as f32),
+            _ => Offset::AlongDirection(settings.between(1e-5, 1e-3) as f32),
+        },
+    };
+    let variation = Variation { reading, ..Variation::default() };
+    let max_bounces = expectations.signatures.max_bounces;
+    let simulation = Simulation::new(variation, 7_000_000 + index, emitted, max_bounces);
+    let other_generator = emitted <= 200_000 && settings.one_of(&[true, false]);
+    let mut records = if other_generator {
+        simulation.trace_with(0..emitted, Drand48::new(index))
+    } else {
+        simulation.trace(0..emitted)
+    };
+    let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
+    shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
+    let content = settings.one_of(&CONTENTS);
+    let judgement = judged(records, emitted, content, expectations);
+    let p_values = judgement.findings.iter().filter(|finding| finding.check != "bounces");
+    let smallest = p_values.filter_map(|finding| finding.p_value).fold(1.0, f64::min);
+    let alarm = judgement.findings.iter().find(|finding| finding.is_fault());
+    if let Some(alarm) = alarm {
+        eprintln!("false alarm {index}: {emitted} {content:?} {off} {reading:?}: {alarm:?}");
+    }
+    (smallest, alarm.is_some())
+}
+
+/// The generator behind C's `drand48`.
+struct Drand48(u64);
+
+impl Drand48 {
+    fn new(seed: u64) -> Self {
+        Self((seed << 16) | 0x330E)
+    }
+}
+
+impl Iterator for Drand48 {
+    type Item = f32;
+
+    fn next(&mut self) -> Option<f32> {
+        self.0 = (self.0.wrapping_mul(0x5_DEEC_E66D).wrapping_add(0xB)) & ((1 << 48) - 1);
+        Some((self.0 >> 24) as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+/// Moves positions off their surface by `off`: along the normal, or back to where they came from.
+fn shift(records: &mut [PhotonRecord], off: f32, along_normal: bool, places: &Places) {
+    if off == 0.0 {
+        return;
+    }
+    for record in records {
+        let position = record.position.as_dvec3();
+        let way = match places.place(position) {
+            Place::Cell { facet, .. } | Place::Corner { facet } if along_normal => {
+                places.facets[facet].normal.as_vec3()
+            }
+            _ => record.to_light,
+        };
+        record.position += off * way;
+    }
+}
+
+fn judged(
+    mut records: Vec<PhotonRecord>,
+    emitted: u64,
+    content: Content,
+    expectations: &Expectations,
+) -> Judgement {
+    let has_all = content == Content::Everything;
+    let columns = Columns {
+        intensity: has_all,
+        to_light: has_all,
+        photon: false,
+        bounce: has_all,
+        surface: false,
+    };
+    if !has_all {
+        records.iter_mut().for_each(|record| {
+            *record = PhotonRecord { position: record.position, ..photon_list::record::ABSENT };
+        });
+    }
+    let list = PhotonList { columns, records };
+    let light: DVec3 = create_scene().lights()[0].position.as_dvec3();
+    let observation = observe(&list, &expectations.places, light);
+    let by_user = (content == Content::PositionsAndNumber).then_some(emitted as f64);
+    let emitted = by_user.or(observation.emitted_by_intensity);
+    judge(&observation, emitted, by_user.is_some(), expectations)
+}
+
+/// What became of a list: called correct, incorrect without a name, or named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Correct,
+    Unnamed,
+    Named(&'static str),
+}
+
+fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_limit: &Expectations) {
+    // As the framework's rounding has it: less where a plane lies along the axes. And as others'.
+    let sides = [0.2, 0.6, 0.6, 0.6, 0.6, 0.3, 0.2, 0.6, 0.6, 0.6, 0.6, 0.15];
+    let mut hypotheses = fair_readings();
+    hypotheses.extend([sides, [0.1; FACETS], [0.45; FACETS]].map(no_offset));
+    hypotheses.extend(misreadings());
+    let mut ids: Vec<&'static str> = hypotheses.iter().map(|hypothesis| hypothesis.id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids.retain(|id| *id != "fair");
+    for content in CONTENTS {
+        let what = match content {
+            Content::PositionsAlone => "positions alone",
+            Content::PositionsAndNumber => "positions, and the number of photons sent out is known",
+            Content::Everything => "all columns but `photon`",
+        };
+        println!("## Found and named: {what}\n");
+        println!(
+            "{seeds} lists of {EMITTED} photons sent out a row, of all of its variants in turn. Columns: \
+             called correct, called incorrect without a name, and named, by number.\n"
+        );
+        let numbers: Vec<String> = (1..=ids.len()).map(|number| number.to_string()).collect();
+        println!("| what was done | correct | no name | {} |", numbers.join(" | "));
+        println!("|---{}|", "|---".repeat(ids.len() + 2));
+        let rows = std::iter::once(&"fair").chain(&ids).enumerate();
+        for (row, id) in rows.filter(|(_, id)| only.is_empty() || **id == only) {
+            let variants: Vec<&Hypothesis> =
+                hypotheses.iter().filter(|hypothesis| hypothesis.id == *id).collect();
+            let expectations =
+                if *id == "bounce-off-by-one" { with_small_limit } else { expectations };
+            let outcomes: Vec<Outcome> = (0..seeds)
+                .into_par_iter()
+                .map(|seed| {
+                    let variant = variants[seed as usize % variants.len()];
+                    outcome(variant, content, 9_000_000 + seed, expectations)
+                })
+                .collect();
+            let count = |wanted: Outcome| match outcomes.iter().filter(|it| **it == wanted).count()
+            {
+                0 => String::new(),
+                count => count.to_string(),
+            };
+            let named: Vec<String> = ids.iter().map(|id| count(Outcome::Named(id))).collect();
+            let title =
+                if row == 0 { "a fair reading".to_owned() } else { format!("{row} `{id}`") };
+            let (correct, unnamed) = (count(Outcome::Correct), count(Outcome::Unnamed));
+            println!("| {title} | {correct} | {unnamed} | {} |", named.join(" | "));
+        }
+        println!();
+    }
+    println!("`bounce-off-by-one` is judged with `--max-bounces {SMALL_LIMIT}`.\n");
+}
+
+/// Lists in which two misreadings were made, which no single name tells.
+fn two_at_once(seeds: u64, expectations: &Expectations) {
+    let (pairs, singles) = (pairs(), misreadings());
+    println!("## Two misreadings at once\n");
+    println!(
+        "Lists of {EMITTED} photons sent out, of {} pairs of misreadings in turn, which have no name: what was \
+         told of them.\n",
+        pairs.len()
+    );
+    println!(
+        "| what is known | correct | no name | these two | two others | one of both | a third |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for (content, what) in CONTENTS.into_iter().zip(["positions alone", "and the number", "all"]) {
+        let tell = |seed: u64| {
+            let pair = &pairs[seed as usize % pairs.len()];
+            let simulation = Simulation::new(pair.variation, 11_000_000 + seed, EMITTED, 1000);
+            let judgement = judged(simulation.trace(0..EMITTED), EMITTED, content, expectations);
+            let is_correct = !judgement.findings.iter().any(|finding| finding.is_fault());
+            let is_of = |id: &str| {
+                let ways = singles.iter().filter(|single| single.id == id);
+                ways.map(|way| &way.title).any(|title| pair.title.contains(title))
+            };
+            match (judgement.explanation, judgement.pair) {
+                _ if is_correct => 0,
+                (None, None) => 1,
+                (None, Some(told)) if pair.title.contains(&told.hypothesis.title) => 2,
+                (None, Some(told)) if told.hypothesis.title.contains(&pair.title) => 2,
+                (None, Some(_)) => 3,
+                (Some(named), _) if is_of(named.hypothesis.id) => 4,
+                (Some(named), _) => {
+                    eprintln!("{what}: {} was named {}", pair.title, named.hypothesis.id);
+                    5
+                }
+            }
+        };
+        let mut row = [0; 6];
+        let told: Vec<usize> = (0..10 * seeds).into_par_iter().map(tell).collect();
+        told.into_iter().for_each(|column| row[column] += 1);
+        println!("| {what} | {} |", row.map(|n| n.to_string()).join(" | "));
+    }
+}
+
+const EMITTED: u64 = 200_000;
+/// With so few bounces allowed, one fewer shows.
+const SMALL_LIMIT: i32 = 3;
+
+fn outcome(
+    hypothesis: &Hypothesis,
+    content: Content,
+    seed: u64,
+    expectations: &Expectations,
+) -> Outcome {
+    let max_bounces = expectations.signatures.max_bounces;
+    let simulation = Simulation::new(hypothesis.variation, seed, EMITTED, max_bounces);
+    let judgement = judged(simulation.trace(0..EMITTED), EMITTED, content, expectations);
+    if !judgement.findings.iter().any(|finding| finding.is_fault()) {
+        return Outcome::Correct;
+    }
+    match judgement.explanation {
+        Some(explanation) => Outcome::Named(explanation.hypothesis.id),
+        None => Outcome::Unnamed,
+    }
+}

@@ -1,0 +1,105 @@
+//! The exact comparison, for lists that follow the reference's streams.
+
+use super::submission::Settings;
+use super::verdict::{Finding, Weight};
+use compare::report::{Outcome, Report, compare, scene_size};
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
+use variants::run::Run;
+
+/// How close two positions must be that count as one, as a part of the scene's longest edge.
+const TOLERANCE: f32 = 1e-4;
+/// The part of the records that may differ by rounding alone, where light grazes an edge.
+const BY_ROUNDING: f32 = 1e-3;
+/// How many photons are looked at to see whether a list follows our streams.
+const PROBES: usize = 200;
+/// How far apart two hits may be that count as one, in world units.
+const SAME_HIT: f32 = 1e-2;
+/// A run of more photons is not traced again.
+const MOST_PHOTONS: u64 = 20_000_000;
+
+/// What the exact comparison finds; nothing for lists with other random numbers.
+pub fn exact_comparison(
+    list: &PhotonList,
+    settings: &Settings,
+    max_bounces: i32,
+    emitted: Option<u64>,
+) -> Option<Finding> {
+    let last = list.records.iter().map(|record| u64::from(record.photon)).max()?;
+    let emitted = emitted.unwrap_or(last + 1);
+    if !list.columns.photon || last >= emitted || emitted > MOST_PHOTONS {
+        return None;
+    }
+    let mut run = Run::handout(settings.seed, emitted);
+    run.renderer.max_photon_bounces = max_bounces;
+    if !follows(list, &run.renderer) {
+        return None;
+    }
+    let mut records: Vec<PhotonRecord> = Vec::new();
+    let traced: Result<_, std::convert::Infallible> =
+        run.trace_list(0..run.renderer.emitted(), |piece, _| {
+            records.extend_from_slice(piece);
+            Ok(())
+        });
+    let Ok(_) = traced;
+    let all =
+        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
+    let reference = PhotonList { columns: all, records };
+    let tolerance = TOLERANCE * scene_size(run.scene());
+    let report = compare(&reference, list, Some(&run), tolerance, BY_ROUNDING);
+    Some(finding_of(&report))
+}
+
+/// Whether some of the list's photons are where the reference's photons of the same number are.
+fn follows(list: &PhotonList, renderer: &PhotonMappingRenderer) -> bool {
+    let step = list.records.len() / PROBES + 1;
+    let probes: Vec<_> = list.records.iter().step_by(step).collect();
+    let found = probes.iter().filter(|record| is_hit(renderer, record)).count();
+    5 * found > probes.len()
+}
+
+/// Whether the reference's photon of the same number hits where `record` is; straight from the light, too,
+/// for those who store that.
+fn is_hit(renderer: &PhotonMappingRenderer, record: &PhotonRecord) -> bool {
+    let photon = u64::from(record.photon);
+    let mut is_hit = false;
+    renderer.generic_photon_map_generation(&mut Vec::new(), photon..photon + 1, |_, path, _| {
+        is_hit = path.iter().any(|vertex| match vertex {
+            PathVertex::Surface(state) => {
+                state.intersection_point().distance(record.position) < SAME_HIT
+            }
+            PathVertex::Light => false,
+        });
+    });
+    is_hit
+}
+
+fn finding_of(report: &Report) -> Finding {
+    let differing = report.reference_records.max(report.submission_records)
+        - report.differences.matched.min(report.submission_records);
+    let found = match (&report.outcome, &report.first_divergence) {
+        (Outcome::Identical, _) => "the same list, bit for bit".to_owned(),
+        (Outcome::WithinTolerance, _) => format!("the same photons; {differing} differ"),
+        (_, divergence) => {
+            let reason = divergence.as_ref().and_then(|divergence| divergence.reason.clone());
+            let reading = report.reading.as_ref().map(|reading| format!("as with {reading}"));
+            let why = reading.or(reason).unwrap_or_else(|| "the first is not explained".to_owned());
+            format!("{differing} photons differ: {why}")
+        }
+    };
+    let section = report.first_divergence.as_ref().and_then(|divergence| divergence.section);
+    let passed = report.outcome != Outcome::Different || report.reading.is_some();
+    Finding {
+        check: "exact comparison",
+        section: section.map(|section| section.title()),
+        expected: "the reference's photons, whose random numbers the list follows".to_owned(),
+        found,
+        p_value: None,
+        passed,
+        // What it shows of positions, the other checks judge; what they let pass may be fair.
+        weight: Weight::Remark,
+        advice: if passed { "" } else { "'photon-mapping compare' tells more." }.into(),
+    }
+}

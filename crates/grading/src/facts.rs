@@ -1,0 +1,239 @@
+//! What a list shows without statistics: positions that cannot be, and what costs nothing.
+
+use std::borrow::Cow;
+
+use super::observation::{Observation, ToLight};
+use super::places::Places;
+use super::verdict::{Finding, Weight};
+use variants::section::Section;
+
+/// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
+const MOST_REPEATED: f64 = 0.01;
+/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons sent out
+/// from all fair offsets, none was, and by chance, with six digits, it is one of ten million photons. A
+/// thousandth is left to programs that round more than the reference.
+const MOST_IDENTICAL: f64 = 1e-3;
+/// The part of scattered photons that come from where the light stands, within a thousandth of a radian: none
+/// of 500,896, since it is one in a million by the solid angle.
+const MOST_STRAIGHT: f64 = 1e-4;
+/// A stray photon or two is left to rounding.
+const MOST_ASTRAY: f64 = 5e-4;
+/// A list of photons without a count is shorter than what the handout asks for when it fits fewer photons sent
+/// out than this; with fewer than the second, what is stored is a dozen photons, which tell nothing.
+const FEW_EMITTED: f64 = 5000.0;
+const LEAST_EMITTED: f64 = 250.0;
+
+/// What can be said without statistics.
+pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
+    let counts = &observation.counts;
+    let records = observation.records as f64;
+    let finite = records - counts.not_finite;
+    let transformation = Some(Section::HemisphereRayTransformation.title());
+    let storage = Some(Section::PhotonStorage.title());
+    let fact =
+        |check, section, expected: &str, found, passed, weight, advice: &'static str| Finding {
+            check,
+            section,
+            expected: expected.to_owned(),
+            found,
+            p_value: None,
+            passed,
+            weight,
+            advice: if passed { Cow::Borrowed("") } else { advice.into() },
+        };
+    let of_all = |count: f64, all: f64| format!("{count:.0} of {all:.0}");
+    let (repeated, on_facets) = (observation.repeated, counts.on_surfaces());
+    let surfaces = places.surfaces.len();
+    let is_repeated = repeated > (MOST_REPEATED * on_facets).max(2.0);
+    let identical = observation.identical.unwrap_or_default();
+    let is_identical = identical > (MOST_IDENTICAL * on_facets).max(2.0);
+    let (same, exactly) =
+        if is_identical && !is_repeated { (identical, "exactly ") } else { (repeated, "") };
+    let mut findings = vec![
+        fact(
+            "finite",
+            transformation,
+            "every position is finite",
+            format!("{} are not", of_all(counts.not_finite, records)),
+            counts.not_finite == 0.0,
+            Weight::Grave,
+            "Look for a vector of length 0 that is normalised: t where the normal is (-1, 0, 0).",
+        ),
+        fact(
+            "on surfaces",
+            storage,
+            &format!("every photon lies on one of the {surfaces} surfaces, up to 0.007 off"),
+            format!("{} lie elsewhere", of_all(counts.off_surface, finite)),
+            counts.off_surface <= (MOST_ASTRAY * finite).max(1.0),
+            Weight::Grave,
+            "The position is state.intersectionRay.GetRayPosition(state.intersectionT), in world \
+             space.",
+        ),
+        fact(
+            "footprints",
+            transformation,
+            "no photon lies on the floor beneath a box",
+            format!("{} lie there", of_all(counts.footprint, finite)),
+            counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
+            Weight::Fault,
+            "A photon got into a box: directions must be in the hemisphere over the normal, and the \
+             scattered ray must start above the surface.",
+        ),
+        fact(
+            "same place",
+            transformation,
+            "hardly any two photons lie at the same place",
+            format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
+            !is_repeated && !is_identical,
+            Weight::Fault,
+            "Scattered rays hit the triangle they leave: start them a little above the surface, or \
+             check that no photon is inserted twice.",
+        ),
+    ];
+    if let Some(decimals) = observation.few_decimals {
+        findings.pop();
+        findings.push(fact(
+            "same place",
+            storage,
+            "positions with at least four decimals",
+            format!("positions have {decimals} decimals: whether photons hit the triangle they leave cannot be told"),
+            false,
+            Weight::Remark,
+            "Write positions with all their digits, such as nine.",
+        ));
+    }
+    findings
+}
+
+/// Whether the list is long enough to be what the handout asks for.
+pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> Finding {
+    let passed = emitted.is_some() || fitted >= FEW_EMITTED;
+    Finding {
+        check: "enough photons",
+        section: Some(Section::PhotonStorage.title()),
+        expected: format!("the photons of at least {FEW_EMITTED} sent out"),
+        found: format!("{} photons, of about {fitted:.0} sent out", observation.records),
+        p_value: None,
+        passed,
+        weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },
+        advice: if passed {
+            "".into()
+        } else {
+            "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it \
+             sent out fewer, grade with --emitted."
+                .into()
+        },
+    }
+}
+
+/// The check of photons that come straight from the light.
+pub fn straight_from_the_light(found: String, passed: bool) -> Finding {
+    Finding {
+        check: "indirect only",
+        section: Some(Section::PhotonStorage.title()),
+        expected: "photons that have bounced, not those straight from the light".to_owned(),
+        found,
+        p_value: None,
+        passed,
+        weight: if passed { Weight::Remark } else { Weight::Grave },
+        advice: if passed { "" } else { "Do not store a photon while the size of 'path' is 1." }
+            .into(),
+    }
+}
+
+/// What costs nothing, since the handout says that positions are sufficient.
+/// `emitted` is how many photons were sent out by the word of the course, and `is_ruled_out` whether the photons
+/// lie where those straight from the light do not.
+pub fn remarks(
+    observation: &Observation,
+    emitted: Option<f64>,
+    is_ruled_out: bool,
+) -> Vec<Finding> {
+    let remark = |check, expected: &str, found: String, passed, advice: &'static str| Finding {
+        check,
+        section: Some(Section::PhotonStorage.title()),
+        expected: expected.to_owned(),
+        found,
+        p_value: None,
+        passed,
+        weight: Weight::Remark,
+        advice: if passed { "".into() } else { advice.into() },
+    };
+    let mut findings = Vec::new();
+    if observation.has_odd_intensity {
+        findings.push(remark(
+            "intensity",
+            "one intensity for all: the light's colour divided by the photons sent out",
+            "intensities that differ, or say nothing".to_owned(),
+            false,
+            "Set 'intensity' to lightIntensity as it is.",
+        ));
+    }
+    if let (Some(emitted), Some(says)) = (emitted, observation.emitted_by_intensity)
+        && (says / emitted - 1.0).abs() > 1e-3
+    {
+        findings.push(remark(
+            "intensity",
+            "the light's colour divided by the photons sent out",
+            format!("it is of {says:.0} sent out, not of {emitted:.0}"),
+            false,
+            "Set 'intensity' to lightIntensity as it is.",
+        ));
+    }
+    let Some(to_light) = observation.to_light else {
+        return findings;
+    };
+    let ToLight { set, not_unit, from_behind, to_the_light, all_alike } = to_light;
+    let records = observation.records;
+    let is_set = set == records && !all_alike;
+    findings.push(remark(
+        "to_light set",
+        "a direction for every photon",
+        if all_alike { "all the same".to_owned() } else { format!("{set} of {records} have one") },
+        is_set,
+        "Set 'toLightRay' to a ray in the opposite direction of the photon ray.",
+    ));
+    if !is_set {
+        return findings;
+    }
+    let nearly_all = |count: u64| count as f64 > 0.95 * set as f64;
+    let few = |count: u64| count as f64 <= 0.01 * set as f64;
+    findings.push(remark(
+        "to_light length",
+        "directions of length 1",
+        format!("{not_unit} of {set} are not"),
+        few(not_unit),
+        "Normalise the direction.",
+    ));
+    findings.push(remark(
+        "to_light direction",
+        "directions to where the photon came from, in front of the surface",
+        format!("{from_behind} of {set} point behind the surface"),
+        few(from_behind),
+        if nearly_all(from_behind) {
+            "The sign is reversed: it points in the OPPOSITE direction of the photon ray."
+        } else {
+            "The photon ray's direction, with the opposite sign."
+        },
+    ));
+    if to_light.is_towards_light_throughout() {
+        return findings;
+    }
+    let is_indirect = to_the_light as f64 <= (MOST_STRAIGHT * set as f64).max(3.0);
+    findings.push(if !is_indirect && is_ruled_out {
+        remark(
+            "to_light source",
+            "directions to where the photon came from",
+            format!(
+                "{to_the_light} of {set} point straight to the light, but the photons do not lie where \
+                 those straight from the light do"
+            ),
+            false,
+            "Set 'toLightRay' to a ray in the opposite direction of the photon ray that came here.",
+        )
+    } else {
+        let found = format!("{to_the_light} of {set} come straight from the light");
+        straight_from_the_light(found, is_indirect)
+    });
+    findings
+}

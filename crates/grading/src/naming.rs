@@ -1,0 +1,290 @@
+//! Which misreading explains what a submission shows?
+
+use super::observation::Observation;
+use super::places::Places;
+use super::signature::{Signature, Signatures, classes};
+use super::statistics::{Fit, Matrix, fit, grouped, towards};
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, no_offset};
+use variants::pairs::PAIR;
+use variants::reading::TangentBasis;
+use variants::variation::{FACETS, survival_of_facets};
+
+/// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
+/// misreading is not all of it.
+const LEEWAY: f64 = 0.012;
+/// The same for cells, of which a larger part lies along an edge.
+const LEEWAY_OF_CELLS: f64 = 0.03;
+/// Cells are joined until so many photons are expected in each.
+const LEAST_EXPECTED: f64 = 25.0;
+/// A misreading that would show so little as what is seen less often than this explains nothing.
+const LEAST_LIKELY: f64 = 1e-4;
+/// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
+/// misreadings without them explain nothing.
+const MANY_REPEATED: f64 = 0.03;
+/// Of more bounces than these, hardly a path has the last.
+const SMALL_LIMIT: i32 = 12;
+/// How many standard deviations the places of self-hits must be towards those of first hits: what is
+/// stored twice for another reason is not.
+const FIRST_HITS_SHOW: f64 = 6.0;
+/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first hits,
+/// which are not stored, they make at most so many known. Both are out of reach for rounding, which
+/// brings half of the starts below the surface.
+const LEAST_SCATTERED: f64 = 0.5;
+const MOST_FIRST_HITS: f64 = 0.5;
+/// By which part of itself the number of photons that self-hits leave may be off: its prediction takes the same
+/// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
+const LEEWAY_OF_LOSS: f64 = 0.12;
+
+/// The logarithm of how much rarer two misreadings at once are than one of them, and photons that are right but for their
+/// number.
+const RARER: f64 = -6.0;
+
+/// A misreading that explains a submission, or two at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// The misreading, or one of [`super::pairs`].
+    pub hypothesis: Hypothesis,
+    /// How well it fits.
+    pub fit: Fit,
+    /// Its likelihood beside those of all others.
+    pub confidence: f64,
+}
+
+impl Explanation {
+    /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with all others'.
+    pub(super) fn new(hypothesis: &Hypothesis, mut fit: Fit) -> Self {
+        if hypothesis.misreading.is_none() {
+            fit.log_likelihood += RARER;
+        }
+        Self { hypothesis: hypothesis.clone(), fit, confidence: 0.0 }
+    }
+
+    /// Whether it is two misreadings at once, which have no name of their own.
+    pub fn is_pair(&self) -> bool {
+        self.hypothesis.id == PAIR
+    }
+
+    fn is_same_misreading(&self, other: &Self) -> bool {
+        let [one, other] = [&self.hypothesis, &other.hypothesis];
+        // With t and b as they are written, a title is longer.
+        let is_same_pair =
+            one.title.starts_with(&other.title) || other.title.starts_with(&one.title);
+        one.id == other.id && (!self.is_pair() || is_same_pair)
+    }
+}
+
+/// What is known of the misreadings.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'a> {
+    /// The fair readings.
+    pub fair: &'a [Hypothesis],
+    /// The misreadings.
+    pub misreadings: &'a [Hypothesis],
+    /// Two of them at once.
+    pub pairs: &'a [Hypothesis],
+    /// The signatures of all.
+    pub signatures: &'a Signatures,
+}
+
+/// Whether a bounce fewer than `max_bounces`, which are allowed, can show at all.
+pub fn bounces_show(max_bounces: i32) -> bool {
+    max_bounces <= SMALL_LIMIT
+}
+
+/// The misreading that explains `observation`, or two at once, if no other does as well.
+pub fn explain(
+    observation: &Observation,
+    emitted: Option<f64>,
+    places: &Places,
+    known: Known,
+) -> Option<Explanation> {
+    let max_bounces = known.signatures.max_bounces;
+    let repeated = observation.repeated / observation.counts.on_surfaces().max(1.0);
+    let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
+    let straight = observation.to_light.and_then(|to_light| to_light.part_straight());
+    let is_short = observation.bounces.is_some_and(|[first, last]| {
+        i32::from(last - first) + 1 < max_bounces && max_bounces <= SMALL_LIMIT
+    });
+    let is_possible = |Hypothesis { id, variation, .. }: &Hypothesis| {
+        if *id == "nan-frame" {
+            return of_nan > 0.2;
+        }
+        let is_below =
+            variation.flipped_normal || variation.reading.tangent_basis == TangentBasis::Transposed;
+        let is_straight = match straight {
+            Some(part) if variation.direct_stored => part > 0.5,
+            Some(part) => is_below || variation.fewer_bounces > 0 || part < 0.01,
+            None => true,
+        };
+        let is_long =
+            !is_short || is_below || variation.direct_stored || variation.fewer_bounces > 0;
+        of_nan == 0.0 && (is_below || repeated < MANY_REPEATED) && is_straight && is_long
+    };
+    let comparison = Comparison::new(observation, emitted, places, known.signatures);
+    let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
+    let mut candidates: Vec<Explanation> = (known.misreadings.iter().chain(known.pairs))
+        .zip(signatures)
+        .filter(|(hypothesis, _)| is_possible(hypothesis))
+        .filter(|(hypothesis, _)| hypothesis.id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces))
+        .map(|(hypothesis, signature)| Explanation::new(hypothesis, comparison.fit(signature)))
+        .collect();
+    let others = candidates.iter().map(|candidate| candidate.fit.p_value).fold(0.0, f64::max);
+    if others < LEAST_LIKELY && repeated > MANY_REPEATED && of_nan == 0.0 {
+        let fit = explain_by_self_hits(observation, emitted, places, known)?;
+        let hypothesis = no_offset([0.0; FACETS]);
+        return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
+    }
+    if of_nan == 0.0 && !is_short {
+        // Photons lost or stored twice all over the scene are no misreading, and neither is what only resembles one.
+        let of_any_number = Comparison { emitted: None, ..comparison };
+        let fair = known.fair.iter().zip(&known.signatures.fair);
+        candidates.extend(
+            fair.map(|(reading, signature)| {
+                Explanation::new(reading, of_any_number.fit(signature))
+            }),
+        );
+    }
+    most_likely(candidates)
+}
+
+/// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.
+struct Comparison<'a> {
+    emitted: Option<f64>,
+    of_classes: Vec<f64>,
+    of_cells: Vec<f64>,
+    groups: (Vec<usize>, usize),
+    correlation: &'a Matrix,
+}
+
+impl<'a> Comparison<'a> {
+    fn new(
+        observation: &Observation,
+        emitted: Option<f64>,
+        places: &Places,
+        signatures: &'a Signatures,
+    ) -> Self {
+        let of_classes = classes(&observation.counts, places);
+        let reference = &signatures.fair[0];
+        // By the photons there are: a misreading may have stored far fewer than are expected.
+        let size = of_classes.iter().sum::<f64>() / reference.classes.iter().sum::<f64>();
+        let groups = places.joined_cells(&reference.cells, size, LEAST_EXPECTED);
+        let count = groups.iter().max().map_or(0, |last| last + 1);
+        Self {
+            emitted,
+            of_classes,
+            of_cells: grouped(&observation.counts.cells, &groups, count),
+            groups: (groups, count),
+            correlation: &signatures.correlation,
+        }
+    }
+
+    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smaller of both p-values.
+    fn fit(&self, signature: &Signature) -> Fit {
+        let by_class = fit(&self.of_classes, &signature.law_of_classes(LEEWAY), self.emitted);
+        let (groups, count) = &self.groups;
+        let law = signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count);
+        let by_cell = fit(&self.of_cells, &law, self.emitted);
+        let p_value = by_class.p_value.min(by_cell.p_value);
+        Fit { p_value, log_likelihood: by_cell.log_likelihood, ..by_class }
+    }
+}
+
+/// Whether self-hits explain places at which several photons lie. How many there are depends on rounding, from
+/// facet to facet and from bounce to bounce, so their counts follow no law; but what they leave when every
+/// place counts once does: the places of scattered photons, of which a part is lost, and of first hits, of
+/// which a part becomes known.
+fn explain_by_self_hits(
+    observation: &Observation,
+    emitted: Option<f64>,
+    places: &Places,
+    known: Known,
+) -> Option<Fit> {
+    let direct_stored =
+        known.misreadings.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
+    let with_first_hits = &known.signatures.misreadings[direct_stored].classes;
+    let law = known.signatures.fair[0].law_of_classes(LEEWAY);
+    let distinct = classes(&observation.distinct, places);
+    let of_distinct = fit(&distinct, &law, emitted);
+    let shows_first_hits = towards(&distinct, &law, with_first_hits, emitted) > FIRST_HITS_SHOW;
+    let size = of_distinct.emitted;
+    let is_between = |class: usize| {
+        let scattered = size * law.mean[class];
+        let first = size * (with_first_hits[class] - law.mean[class]).max(0.0);
+        let by_chance = 5.0 * (scattered + first).sqrt() + 5.0;
+        let least = LEAST_SCATTERED * scattered - by_chance;
+        let most = 1.1 * scattered + MOST_FIRST_HITS * first + by_chance;
+        // Of an unknown size, only the shape of what is left tells.
+        emitted.is_none() || (least..most).contains(&distinct[class])
+    };
+    let explains = shows_first_hits
+        && (0..places.facets.len()).all(is_between)
+        && emitted.is_none_or(|emitted| {
+            let counts = classes(&observation.counts, places);
+            loses_what_self_hits_lose(emitted, &counts, &distinct, with_first_hits, known)
+        });
+    explains.then_some(of_distinct)
+}
+
+/// Whether facets that the light does not reach have as many photons fewer as self-hits lose on their way: `counts`,
+/// at `distinct` places, of `emitted` sent out.
+fn loses_what_self_hits_lose(
+    emitted: f64,
+    counts: &[f64],
+    distinct: &[f64],
+    with_first_hits: &[f64],
+    known: Known,
+) -> bool {
+    let reference = &known.signatures.fair[0];
+    let first_hits =
+        |facet: usize| emitted * (with_first_hits[facet] - reference.classes[facet]).max(0.0);
+    let scattered = |facet: usize| emitted * reference.classes[facet];
+    let (lit, dark): (Vec<usize>, Vec<usize>) =
+        (0..FACETS).partition(|facet| first_hits(*facet) > scattered(*facet));
+    let of_dark = |of: &dyn Fn(usize) -> f64| dark.iter().map(|facet| of(*facet)).sum::<f64>();
+    let found = of_dark(&|facet| distinct[facet]);
+    let left = found / of_dark(&scattered).max(1.0);
+
+    let survival = survival_of_facets();
+    let (mut survive, mut leave) = (0.0, 0.0);
+    for facet in lit {
+        let (first, survival) = (first_hits(facet), f64::from(survival[facet]));
+        let arriving = left * scattered(facet) + first;
+        // Of first hits, those are known that a self-hit followed. What follows that may be rarer: on some planes
+        // rounding brings no point below twice.
+        let again = ((distinct[facet] - left * scattered(facet)) / first).clamp(0.0, survival);
+        let known_again = counts[facet] - distinct[facet] + first * again;
+        let once_more = (1.0 - arriving * again / known_again.max(1.0)).clamp(0.0, survival);
+        survive += first * survival;
+        leave += first
+            * (survival - again + again * (survival - once_more) / (1.0 - once_more).max(1e-9));
+    }
+    let part = leave / survive;
+    let of_bounce = |bounce: usize| of_dark(&|facet| reference.by_bounce[bounce][facet]);
+    let bounces = 0..reference.by_bounce.len();
+    let all: f64 = bounces.clone().map(of_bounce).sum();
+    let lost: f64 =
+        bounces.map(|bounce| part.powi(bounce as i32 + 1) * of_bounce(bounce)).sum::<f64>() / all;
+    let by_chance = 3.0 / found.max(1.0).sqrt();
+    (left / lost - 1.0).abs() < LEEWAY_OF_LOSS + by_chance
+}
+
+/// The likeliest of `candidates`, if it explains what is seen, and no other does as well.
+pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
+    candidates.sort_by(|a, b| b.fit.log_likelihood.total_cmp(&a.fit.log_likelihood));
+    let best = candidates.first()?.clone();
+    if best.fit.p_value < LEAST_LIKELY {
+        return None;
+    }
+    // Ways to the same misreading do not compete with each other.
+    let mut counted = vec![&best];
+    let mut sum = 1.0;
+    for other in &candidates[1..] {
+        if !counted.iter().any(|known| known.is_same_misreading(other)) {
+            counted.push(other);
+            sum += (other.fit.log_likelihood - best.fit.log_likelihood).exp();
+        }
+    }
+    let confidence = 1.0 / sum;
+    let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
+    (confidence > 0.95 && !is_fair).then_some(Explanation { confidence, ..best })
+}

@@ -1,0 +1,259 @@
+//! What a list of photons shows: counted by place, and looked over for what cannot be right.
+
+use super::places::{Place, Places};
+use glam::{DVec3, Vec3};
+use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
+
+/// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
+const SAME_PLACE: f64 = 2e-5;
+/// An intensity whose inverse is less is none of so many photons, but a colour left as it is, perhaps times a
+/// constant.
+const LEAST_NUMBER: f64 = 100.0;
+/// How many neighbours are looked at before a photon counts as alone.
+const MOST_NEIGHBOURS: usize = 256;
+/// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with three, three in
+/// a hundred of the photons of ten million sent out.
+const FEWEST_DECIMALS: i32 = 4;
+/// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
+const EXACT_DECIMALS: i32 = 6;
+/// How many bounces are counted apart.
+pub const BOUNCES: usize = 4;
+
+/// Counts by place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counts {
+    /// By cell.
+    pub cells: Vec<f64>,
+    /// Where two facets meet.
+    pub corner: f64,
+    /// Where a box stands.
+    pub footprint: f64,
+    /// On no facet.
+    pub off_surface: f64,
+    /// Nowhere.
+    pub not_finite: f64,
+}
+
+impl Counts {
+    /// Nothing counted yet.
+    pub fn new(places: &Places) -> Self {
+        Self {
+            cells: vec![0.0; places.cells],
+            corner: 0.0,
+            footprint: 0.0,
+            off_surface: 0.0,
+            not_finite: 0.0,
+        }
+    }
+
+    /// Counts a photon at `place`.
+    pub fn add(&mut self, place: Place) {
+        match place {
+            Place::Cell { cell, .. } => self.cells[cell] += 1.0,
+            Place::Corner { .. } => self.corner += 1.0,
+            Place::Footprint => self.footprint += 1.0,
+            Place::OffSurface => self.off_surface += 1.0,
+            Place::NotFinite => self.not_finite += 1.0,
+        }
+    }
+
+    /// All that lie on a facet.
+    pub fn on_surfaces(&self) -> f64 {
+        self.cells.iter().sum::<f64>() + self.corner + self.footprint
+    }
+}
+
+/// What the directions back to the light look like.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToLight {
+    /// Records that have one which is not zero and finite.
+    pub set: u64,
+    /// Of these, how many are not of length 1.
+    pub not_unit: u64,
+    /// How many come from behind the facet.
+    pub from_behind: u64,
+    /// How many point straight to the light.
+    pub to_the_light: u64,
+    /// Whether all are the same.
+    pub all_alike: bool,
+}
+
+impl ToLight {
+    /// Whether all point to the light, through surfaces if need be: then they say nothing of the way that
+    /// photons came.
+    pub fn is_towards_light_throughout(&self) -> bool {
+        let set = self.set as f64;
+        self.to_the_light as f64 > 0.95 * set && self.from_behind as f64 > 0.01 * set
+    }
+
+    /// The part of the photons that come straight from the light, if the directions tell.
+    pub fn part_straight(&self) -> Option<f64> {
+        let tells = !self.is_towards_light_throughout();
+        tells.then(|| self.to_the_light as f64 / self.set.max(1) as f64)
+    }
+}
+
+/// What a list shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// How many records it has.
+    pub records: u64,
+    /// Where they lie.
+    pub counts: Counts,
+    /// How many lie on a facet where another one does that is counted already.
+    pub repeated: f64,
+    /// How many lie where another one does to the last bit; nothing where that may come from rounding.
+    pub identical: Option<f64>,
+    /// The same without those that are repeated.
+    pub distinct: Counts,
+    /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
+    /// then none counts as repeated.
+    pub few_decimals: Option<i32>,
+    /// How many photons were sent out by the word of the intensities, if they agree with each other.
+    pub emitted_by_intensity: Option<f64>,
+    /// Whether the list has intensities that are of no use.
+    pub has_odd_intensity: bool,
+    /// The directions, if the list has them.
+    pub to_light: Option<ToLight>,
+    /// Counts by bounce, the first stored being the first, if the list has bounces.
+    pub by_bounce: Option<Vec<Counts>>,
+    /// The smallest and the largest bounce.
+    pub bounces: Option<[u16; 2]>,
+}
+
+/// Whether all positions of `records` are whole numbers of the unit with `decimals` decimals.
+fn are_rounded(records: &[PhotonRecord], decimals: i32) -> bool {
+    let unit = 10_f64.powi(decimals);
+    let mut finite = records.iter().filter(|record| record.position.is_finite()).peekable();
+    let is_rounded = |coordinate: f64| {
+        let scaled = coordinate * unit;
+        // What f32 makes of a decimal fraction is off by half a unit in the last place.
+        (scaled - scaled.round()).abs() <= 1.2e-7 * scaled.abs()
+    };
+    finite.peek().is_some()
+        && finite.all(|record| record.position.as_dvec3().to_array().into_iter().all(is_rounded))
+}
+
+/// Looks at `list`, whose positions are in world space, with the light at `light`.
+pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation {
+    let located: Vec<Place> =
+        list.records.iter().map(|record| places.place(record.position.as_dvec3())).collect();
+    let mut counts = Counts::new(places);
+    let mut distinct = Counts::new(places);
+    let decimals = (0..EXACT_DECIMALS).find(|decimals| are_rounded(&list.records, *decimals));
+    let few_decimals = decimals.filter(|decimals| *decimals < FEWEST_DECIMALS);
+    let repeats = match few_decimals {
+        Some(_) => vec![Repeat::No; located.len()],
+        None => repeats(&list.records, &located),
+    };
+    for (place, repeat) in located.iter().zip(&repeats) {
+        counts.add(*place);
+        if *repeat == Repeat::No {
+            distinct.add(*place);
+        }
+    }
+    let count = |wanted| repeats.iter().filter(|repeat| **repeat == wanted).count() as f64;
+    let identical = count(Repeat::Exactly);
+    let bounces = list.columns.bounce.then(|| {
+        let all = list.records.iter().map(|record| record.bounce);
+        [all.clone().min().unwrap_or(0), all.max().unwrap_or(0)]
+    });
+    let by_bounce = bounces.map(|[first, _]| {
+        let mut by_bounce = vec![Counts::new(places); BOUNCES];
+        for (record, place) in list.records.iter().zip(&located) {
+            if let Some(counts) = by_bounce.get_mut(usize::from(record.bounce - first)) {
+                counts.add(*place);
+            }
+        }
+        by_bounce
+    });
+    let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
+    Observation {
+        records: list.records.len() as u64,
+        repeated: count(Repeat::Closely) + identical,
+        identical: decimals.is_none().then_some(identical),
+        counts,
+        distinct,
+        few_decimals,
+        emitted_by_intensity: intensity.flatten(),
+        has_odd_intensity: intensity == Some(None) && !list.records.is_empty(),
+        to_light: list.columns.to_light.then(|| directions(&list.records, &located, places, light)),
+        by_bounce,
+        bounces,
+    }
+}
+
+/// The intensity is the light's colour, which is white, divided by the photons it sends out.
+fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
+    let first = f64::from(records.first()?.intensity.x);
+    let is_like_first = |intensity: Vec3| {
+        let channels = intensity.as_dvec3().to_array();
+        channels.iter().all(|channel| (channel - first).abs() <= 1e-5 * first)
+    };
+    let emitted = 1.0 / first;
+    let is_a_number = (LEAST_NUMBER..1e12).contains(&emitted);
+    let agree = is_a_number && records.iter().all(|record| is_like_first(record.intensity));
+    // Of f32, whose 7 digits leave the last of a larger number open.
+    agree.then(|| if emitted < 1e6 { emitted.round() } else { emitted })
+}
+
+/// Whether a photon lies where another one does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Repeat {
+    No,
+    Closely,
+    Exactly,
+}
+
+/// Which photons have another one at the same place that comes after them on a sweep.
+fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat> {
+    // Askew to all facets, so that few photons are abreast.
+    let way = DVec3::new(0.5342, 0.6171, 0.5777);
+    let mut sweep: Vec<(f64, DVec3, usize)> = Vec::new();
+    for (index, (record, place)) in records.iter().zip(located).enumerate() {
+        if matches!(place, Place::Cell { .. } | Place::Corner { .. }) {
+            let position = record.position.as_dvec3();
+            sweep.push((position.dot(way), position, index));
+        }
+    }
+    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut repeats = vec![Repeat::No; records.len()];
+    for (at, (along, position, index)) in sweep.iter().enumerate() {
+        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
+        let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
+        let closest = near.map(|other| other.1.distance_squared(*position)).reduce(f64::min);
+        repeats[*index] = match closest {
+            Some(0.0) => Repeat::Exactly,
+            Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
+            _ => Repeat::No,
+        };
+    }
+    repeats
+}
+
+fn directions(
+    records: &[PhotonRecord],
+    located: &[Place],
+    places: &Places,
+    light: DVec3,
+) -> ToLight {
+    let mut found = ToLight { all_alike: true, ..ToLight::default() };
+    for (record, place) in records.iter().zip(located) {
+        let direction = record.to_light.as_dvec3();
+        found.all_alike &= record.to_light == records[0].to_light;
+        if !direction.is_finite() || direction == DVec3::ZERO {
+            continue;
+        }
+        found.set += 1;
+        found.not_unit += u64::from((direction.length() - 1.0).abs() > 1e-3);
+        if let Place::Cell { facet, .. } = place {
+            found.from_behind += u64::from(direction.dot(places.facets[*facet].normal) < 0.0);
+        }
+        let straight = (light - record.position.as_dvec3()).normalize();
+        let aside = straight.cross(direction.normalize()).length();
+        found.to_the_light += u64::from(aside < 1e-3 && straight.dot(direction) > 0.0);
+    }
+    found.all_alike &= records.len() > 1;
+    found
+}

@@ -1,0 +1,171 @@
+//! What is said of a picture.
+
+use super::expected::Expected;
+use crate::verdict::{Finding, Weight};
+use photon_mapping::assignment8::PHOTON_COUNT;
+use variants::section::Section;
+
+/// The dots of a picture are too few for what the handout asks for when they fit fewer photons sent
+/// out than this.
+pub(super) const LEAST_EMITTED: f64 = 5000.0;
+
+/// By which part of itself a number of photons is not known from a picture.
+const NUMBER_LEEWAY: f64 = 0.06;
+
+/// What is to be done where no misreading explains a picture.
+pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it. Hand in the photon list: it \
+    tells more than a picture.";
+
+/// What the test named `check` expects.
+pub(super) fn expected_by(check: &str) -> &'static str {
+    match check {
+        "number of dots" => "as many dots as the photons sent out leave in sight",
+        "dots by facet" => "on every facet in sight as many dots as the scene leaves there",
+        "density of dots" => "the scene's density of dots over every facet in sight",
+        _ => "no tendency towards a known misreading",
+    }
+}
+
+/// The number that is farthest from its expectation.
+pub(super) fn farthest(
+    counts: &[f64],
+    expected: &Expected,
+    name: impl Fn(usize) -> String,
+) -> String {
+    let z =
+        |at: usize| (counts[at] - expected.mean[at]) / expected.covariance[at][at].sqrt().max(1.0);
+    let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
+    let at = farthest.unwrap_or_default();
+    format!(
+        "farthest off: {}, {:.0} red pixels where {:.0} are expected ({:+.1} standard deviations)",
+        name(at),
+        counts[at],
+        expected.mean[at],
+        z(at)
+    )
+}
+
+fn storage(
+    check: &'static str,
+    expected: &str,
+    found: String,
+    passed: bool,
+    weight: Weight,
+    advice: &'static str,
+) -> Finding {
+    Finding {
+        check,
+        section: Some(Section::PhotonStorage.title()),
+        expected: expected.to_owned(),
+        found,
+        p_value: None,
+        passed,
+        weight,
+        advice: if passed { "".into() } else { advice.into() },
+    }
+}
+
+/// There are no dots on the surfaces.
+pub(super) fn no_dots(found: f64, elsewhere: f64) -> Finding {
+    let by_edges = elsewhere > found + 10.0;
+    storage(
+        "dots",
+        "a red dot for every photon stored that is in sight",
+        if by_edges {
+            format!("{found:.0} red pixels on the surfaces, and {elsewhere:.0} along their edges")
+        } else {
+            format!("{found:.0} red pixels on the surfaces")
+        },
+        false,
+        Weight::Fault,
+        if by_edges {
+            "A photon shows within 0.003 of its position: store the point hit, not a point above it."
+        } else {
+            "Insert a photon where the size of 'path' is larger than 1, and check that TracePhoton calls \
+             itself."
+        },
+    )
+}
+
+/// So many photons that all of a right picture would be red, too.
+pub(super) fn saturated(emitted: f64) -> Finding {
+    storage(
+        "dots",
+        "pixels without a dot, to tell where dots are",
+        format!("with {emitted:.0} photons sent out nearly all is red, right or wrong"),
+        false,
+        Weight::Remark,
+        "A picture with 1,000,000 photons sent out tells more.",
+    )
+}
+
+/// Every pixel of the scene is red.
+pub(super) fn all_red() -> Finding {
+    Finding {
+        section: Some(Section::HemisphereRayTransformation.title()),
+        ..storage(
+            "dots",
+            "dots, and surfaces between them",
+            "every pixel of the scene is red, as when the position of a photon is not a number"
+                .to_owned(),
+            false,
+            Weight::Grave,
+            "A photon whose position is not a number is near every point. Look for a vector of length 0 \
+             that is normalised: t where the normal is (-1, 0, 0), for which the absolute value of the \
+             dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS may be far larger than \
+             0.003.",
+        )
+    }
+}
+
+/// Whether the dots are enough to be what the handout asks for.
+pub(super) fn enough(found: f64, fitted: f64) -> Finding {
+    storage(
+        "enough photons",
+        &format!("the dots of at least {LEAST_EMITTED} photons sent out"),
+        format!("{found:.0} red pixels, of about {fitted:.0} photons sent out"),
+        fitted >= LEAST_EMITTED,
+        Weight::Fault,
+        "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it sent \
+         out fewer, grade with --emitted.",
+    )
+}
+
+/// With how many photons sent out a misreading explains the dots: the number is all that tells it from the
+/// same misreading with another one that changes little else.
+pub(super) fn number_under(id: &str, emitted: f64) -> Finding {
+    let close = (emitted / PHOTON_COUNT as f64 - 1.0).abs() < NUMBER_LEEWAY;
+    storage(
+        "photons sent out",
+        &format!("{PHOTON_COUNT}, as the framework sends out"),
+        format!("'{id}' explains the dots of about {:.0} photons", (emitted / 1e3).round() * 1e3),
+        close,
+        Weight::Remark,
+        "If yours sent out another number than this, there is another mistake, too: grade with --emitted.",
+    )
+}
+
+/// What a picture cannot tell when photons hit the triangle they leave.
+pub(super) fn self_hits() -> Finding {
+    storage(
+        "self-hits",
+        "none",
+        "how many there are depends on rounding, so another mistake may hide behind them"
+            .to_owned(),
+        false,
+        Weight::Remark,
+        "Mend the offset, and hand in again: the photon list tells more than a picture.",
+    )
+}
+
+/// Positions are off their surface, which is fair.
+pub(super) fn off_surface(standoff: f64) -> Finding {
+    storage(
+        "off the surfaces",
+        "photons at the points hit",
+        format!("dots as of photons about {standoff:.4} above their surfaces"),
+        false,
+        Weight::Remark,
+        "Store the point hit: a dot shows only within 0.003 of it.",
+    )
+}

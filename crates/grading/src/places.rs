@@ -1,0 +1,296 @@
+//! Where on the assignment's scene a photon lies: on which facet, and in which cell of it.
+
+use glam::{DVec3, Vec3};
+
+use photon_mapping::scene::Scene;
+
+/// How far off its surface a stored position may be, in world units: the handout does not say where
+/// exactly, and the largest distance that counts as fair is 7e-3.
+pub const FAR_OFF: f64 = 7.5e-3;
+/// Photons this close to where another facet meets theirs are counted apart: which of the two they
+/// belong to cannot be told of a position that is slightly off.
+const MARGIN: f64 = 0.012;
+/// A large facet has 4 x 4 cells, a small one 2 x 2: its longest edge decides.
+const LARGE: f64 = 1.5;
+
+/// Where a position lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// On a facet, in a cell of it, both counted over the scene.
+    Cell {
+        /// Which facet.
+        facet: usize,
+        /// Which cell.
+        cell: usize,
+    },
+    /// So close to where two facets meet that it may belong to either.
+    Corner {
+        /// Which facet is closer.
+        facet: usize,
+    },
+    /// On the floor where a box stands.
+    Footprint,
+    /// Not on any facet.
+    OffSurface,
+    /// Infinite, or not a number.
+    NotFinite,
+}
+
+/// One facet: a quad, with the cells into which it is divided.
+#[derive(Clone, Debug)]
+pub struct Facet {
+    /// Which mesh object of the scene it belongs to.
+    pub surface: usize,
+    /// Its corners, in world space.
+    pub corners: [DVec3; 4],
+    /// The unit normal of its plane, on the side of the model's normal.
+    pub normal: DVec3,
+    /// Into how many cells each side is divided.
+    pub divisions: usize,
+    /// The number of its first cell.
+    pub first_cell: usize,
+}
+
+/// The facets of the scene.
+#[derive(Clone, Debug)]
+pub struct Places {
+    /// In the model file's order.
+    pub facets: Vec<Facet>,
+    /// The names of the mesh objects.
+    pub surfaces: Vec<String>,
+    /// How many cells all facets have together.
+    pub cells: usize,
+    /// For each box that stands on a facet: that facet, and the inward half planes of its foot.
+    footprints: Vec<Footprint>,
+}
+
+#[derive(Clone, Debug)]
+struct Footprint {
+    floor: usize,
+    corners: Vec<DVec3>,
+}
+
+impl Facet {
+    /// How far `point` is in front of the facet's plane.
+    pub fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.corners[0])
+    }
+
+    /// Where `point`, seen along the normal, lies between the facet's edges: each in [0, 1] on it.
+    pub fn coordinates(&self, point: DVec3) -> [f64; 2] {
+        // The facets are parallelograms but for the floor, whose shape is off by one part in a hundred.
+        let along = self.corners[1] - self.corners[0];
+        let across = self.corners[3] - self.corners[0];
+        let from = point - self.corners[0];
+        let (aa, ac, cc) = (along.dot(along), along.dot(across), across.dot(across));
+        let (fa, fc) = (from.dot(along), from.dot(across));
+        let determinant = aa * cc - ac * ac;
+        [(fa * cc - fc * ac) / determinant, (fc * aa - fa * ac) / determinant]
+    }
+
+    /// The distance from `point` to the facet.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        let height = self.height(point);
+        let mut is_inside = true;
+        let mut to_edge = f64::INFINITY;
+        for corner in 0..4 {
+            let (a, b) = (self.corners[corner], self.corners[(corner + 1) % 4]);
+            let outward = (b - a).cross(self.normal) * self.turn();
+            is_inside &= outward.dot(point - a) <= 0.0;
+            let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+            to_edge = to_edge.min(point.distance(a + along * (b - a)));
+        }
+        if is_inside { height.abs() } else { to_edge }
+    }
+
+    /// 1 when the corners run counterclockwise about the normal, else -1.
+    fn turn(&self) -> f64 {
+        let [a, b, c, _] = self.corners;
+        (b - a).cross(c - b).dot(self.normal).signum()
+    }
+
+    /// Which cell `point` is in.
+    fn cell(&self, point: DVec3) -> usize {
+        let step = |coordinate: f64| {
+            let step = (coordinate * self.divisions as f64) as usize;
+            step.min(self.divisions - 1)
+        };
+        let [u, v] = self.coordinates(point).map(step);
+        self.first_cell + v * self.divisions + u
+    }
+}
+
+impl Places {
+    /// The facets of `scene`, all of which must be quads.
+    pub fn new(scene: &Scene) -> Self {
+        let world = |point: Vec3| point.as_dvec3();
+        let mut facets: Vec<Facet> = Vec::new();
+        let mut cells = 0;
+        for triangles in model::facets::facets(scene) {
+            let [first, second] = triangles else {
+                unreachable!("every facet of the assignment's scene is a quad");
+            };
+            let [a, b, c] = first.vertices.map(world);
+            let d = world(second.vertices[2]);
+            let plane = (c - a).cross(d - b).normalize();
+            let normal = plane * plane.dot(first.normal.as_dvec3()).signum();
+            let longest = a.distance(b).max(a.distance(d));
+            let divisions = if longest > LARGE { 4 } else { 2 };
+            facets.push(Facet {
+                surface: first.parent_mesh_object,
+                corners: [a, b, c, d],
+                normal,
+                divisions,
+                first_cell: cells,
+            });
+            cells += divisions * divisions;
+        }
+        let surfaces: Vec<_> =
+            scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()).collect();
+        let footprints = footprints(&facets, surfaces.len());
+        Self { facets, surfaces, cells, footprints }
+    }
+
+    /// Where `position`, in world space, lies.
+    pub fn place(&self, position: DVec3) -> Place {
+        if !position.is_finite() {
+            return Place::NotFinite;
+        }
+        let near = |facet: &Facet| facet.height(position).abs() <= FAR_OFF;
+        let distances = self.facets.iter().enumerate().filter(|(_, facet)| near(facet));
+        let closest = distances
+            .map(|(index, facet)| (index, facet.distance(position)))
+            .filter(|(_, distance)| *distance <= FAR_OFF)
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((facet, _)) = closest else {
+            return Place::OffSurface;
+        };
+        let on = &self.facets[facet];
+        let foot = position - on.height(position) * on.normal;
+        let is_close = |(index, other): (usize, &Facet)| {
+            index != facet && other.height(foot).abs() < MARGIN && other.distance(foot) < MARGIN
+        };
+        if self.facets.iter().enumerate().any(is_close) {
+            return Place::Corner { facet };
+        }
+        let is_under = |footprint: &&Footprint| footprint.floor == facet && footprint.holds(foot);
+        if self.footprints.iter().find(is_under).is_some() {
+            return Place::Footprint;
+        }
+        Place::Cell { facet, cell: on.cell(foot) }
+    }
+
+    /// The class of `place`, which is its facet, or one for all corners, or one for all footprints, and
+    /// its cell; nothing for places on no facet.
+    pub fn class_and_cell(&self, place: Place) -> Option<(usize, Option<usize>)> {
+        match place {
+            Place::Cell { facet, cell } => Some((facet, Some(cell))),
+            Place::Corner { .. } => Some((self.facets.len(), None)),
+            Place::Footprint => Some((self.facets.len() + 1, None)),
+            Place::OffSurface | Place::NotFinite => None,
+        }
+    }
+
+    /// The name of class `class`, see [`Self::class_and_cell`].
+    pub fn class_name(&self, class: usize) -> String {
+        match class.checked_sub(self.facets.len()) {
+            None => self.name(class),
+            Some(0) => "corners between surfaces".to_owned(),
+            Some(_) => "beneath the boxes".to_owned(),
+        }
+    }
+
+    /// The name of cell `cell`: its facet, and its place in the facet's grid.
+    pub fn cell_name(&self, cell: usize) -> String {
+        let facet = self.facets.iter().rposition(|facet| facet.first_cell <= cell);
+        let facet = facet.unwrap_or_default();
+        let Facet { first_cell, divisions, .. } = self.facets[facet];
+        let (row, column) = ((cell - first_cell) / divisions, (cell - first_cell) % divisions);
+        format!("{} cell {}/{}", self.name(facet), row + 1, column + 1)
+    }
+
+    /// Groups of cells: the cells of a facet each on its own if at least `least` photons of `emitted` are
+    /// expected in each of them, else the whole facet, and all facets that have fewer together.
+    pub fn joined_cells(&self, mean: &[f64], emitted: f64, least: f64) -> Vec<usize> {
+        let mut groups = vec![0; self.cells];
+        let mut count = 0;
+        let mut small = None;
+        let mut next = || {
+            count += 1;
+            count - 1
+        };
+        for facet in &self.facets {
+            let cells = facet.first_cell..facet.first_cell + facet.divisions * facet.divisions;
+            let of_facet = &mean[cells.clone()];
+            let fewest = of_facet.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+            if emitted * fewest >= least {
+                cells.for_each(|cell| groups[cell] = next());
+                continue;
+            }
+            let group = if emitted * of_facet.iter().sum::<f64>() >= least {
+                next()
+            } else {
+                *small.get_or_insert_with(&mut next)
+            };
+            groups[cells].fill(group);
+        }
+        groups
+    }
+
+    /// The name of facet `facet`: its surface, and where it looks if the surface has several.
+    pub fn name(&self, facet: usize) -> String {
+        let Facet { surface, normal, .. } = self.facets[facet];
+        let surface_name = &self.surfaces[surface];
+        if self.facets.iter().filter(|other| other.surface == surface).count() == 1 {
+            return surface_name.clone();
+        }
+        let side = match normal.abs().to_array() {
+            [_, _, z] if z > 0.5 => "top",
+            [x, y, _] if x > y => {
+                if normal.x > 0.0 {
+                    "right side"
+                } else {
+                    "left side"
+                }
+            }
+            _ if normal.y > 0.0 => "back",
+            _ => "front",
+        };
+        format!("{surface_name} {side}")
+    }
+}
+
+impl Footprint {
+    fn holds(&self, point: DVec3) -> bool {
+        let count = self.corners.len();
+        let middle = self.corners.iter().sum::<DVec3>() / count as f64;
+        (0..count).all(|corner| {
+            let (a, b) = (self.corners[corner], self.corners[(corner + 1) % count]);
+            let edge = b - a;
+            let side = |p: DVec3| edge.x * (p.y - a.y) - edge.y * (p.x - a.x);
+            side(point) * side(middle) > 0.0
+        })
+    }
+}
+
+/// Where a mesh object with several facets stands on the one facet that looks up and lies under it: the
+/// scene's up is z.
+fn footprints(facets: &[Facet], surfaces: usize) -> Vec<Footprint> {
+    let mut footprints = Vec::new();
+    for surface in 0..surfaces {
+        let of_surface = |facet: &&Facet| facet.surface == surface;
+        let top = facets.iter().filter(of_surface).find(|facet| facet.normal.z > 0.9);
+        let (Some(top), true) = (top, facets.iter().filter(of_surface).count() > 1) else {
+            continue;
+        };
+        let is_floor = |facet: &Facet| facet.surface != surface && facet.normal.z > 0.9;
+        for floor in (0..facets.len()).filter(|at| is_floor(&facets[*at])) {
+            let drop = |corner: DVec3| corner - facets[floor].height(corner) * facets[floor].normal;
+            let corners: Vec<_> = top.corners.map(drop).into();
+            if corners.iter().all(|corner| facets[floor].distance(*corner) < 1e-6) {
+                footprints.push(Footprint { floor, corners });
+            }
+        }
+    }
+    footprints
+}

@@ -1,0 +1,297 @@
+//! How many photons each hypothesis leaves where, measured by tracing it.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::observation::{BOUNCES, Counts};
+use super::places::Places;
+use super::statistics::{Law, Matrix};
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
+use variants::pairs::pairs;
+use variants::variation::Simulation;
+
+/// How many photons a thread traces at once.
+const PIECE: u64 = 1 << 16;
+/// By which part of itself the number of photons in corners may be off.
+const LEEWAY_OF_CORNERS: f64 = 0.5;
+/// A bounce fewer shows so little that with fewer photons than this, chance would be most of what it seems to do.
+const WITH_FEWER_BOUNCES: u64 = 4_000_000;
+/// The seed of the signatures. Submissions that follow our streams have another.
+const SEED: u64 = 0x9_2019;
+
+/// Where one hypothesis leaves its photons, for each photon sent out. A class is a facet, or all of
+/// [`super::places::Place::Corner`], or all of [`super::places::Place::Footprint`], in this order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Signature {
+    /// The photons sent out to measure it.
+    pub emitted: f64,
+    /// Photons by cell.
+    pub cells: Vec<f64>,
+    /// The variance of each.
+    pub variance: Vec<f64>,
+    /// Photons by class.
+    pub classes: Vec<f64>,
+    /// The covariance of these.
+    pub covariance: Matrix,
+    /// By bounce, photons by class.
+    pub by_bounce: Vec<Vec<f64>>,
+}
+
+/// The signatures of all hypotheses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Signatures {
+    /// How often photons may bounce.
+    pub max_bounces: i32,
+    /// For [`fair_readings`], in their order.
+    pub fair: Vec<Signature>,
+    /// For [`misreadings`], in their order.
+    pub misreadings: Vec<Signature>,
+    /// For [`pairs`], in their order.
+    pub pairs: Vec<Signature>,
+    /// How the numbers of photons in two cells go together under the reference: their correlation.
+    pub correlation: Matrix,
+}
+
+/// With how many photons signatures are measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// For the reference and the letter of the handout.
+    pub main: u64,
+    /// For the other fair readings.
+    pub fair: u64,
+    /// For each misreading that the fast path can trace.
+    pub misreading: u64,
+    /// For each other misreading.
+    pub slow_misreading: u64,
+    /// For two misreadings at once.
+    pub pair: u64,
+}
+
+impl Effort {
+    /// For the signatures that are kept.
+    pub const FULL: Self = Self {
+        main: 100_000_000,
+        fair: 30_000_000,
+        misreading: 4_000_000,
+        slow_misreading: 4_000_000,
+        pair: 4_000_000,
+    };
+    /// For a limit of bounces of a course's own, in a few seconds.
+    pub const QUICK: Self = Self {
+        main: 8_000_000,
+        fair: 2_000_000,
+        misreading: 500_000,
+        slow_misreading: 200_000,
+        pair: 60_000,
+    };
+}
+
+impl Signatures {
+    /// Those of the assignment as it stands, measured beforehand: a test measures some of them again.
+    pub fn of_assignment8() -> Self {
+        let json = include_str!("signatures.json");
+        serde_json::from_str(json)
+            .expect("the signatures that are part of the program are well formed")
+    }
+
+    /// Measures all signatures for photons that may bounce `max_bounces` times.
+    pub fn measure(places: &Places, max_bounces: i32, effort: Effort) -> Self {
+        let mut correlation = Matrix::new();
+        let mut fair = Vec::new();
+        for (index, hypothesis) in fair_readings().iter().enumerate() {
+            let emitted = if index < 2 { effort.main } else { effort.fair };
+            let (signature, of_cells) = measure(hypothesis, places, emitted, max_bounces);
+            if index == 0 {
+                correlation = correlate(&of_cells);
+            }
+            fair.push(signature);
+        }
+        let of_misreading = |hypothesis: &Hypothesis| {
+            let emitted = match hypothesis.variation.is_fast() {
+                _ if hypothesis.id == BOUNCE_OFF_BY_ONE => {
+                    effort.misreading.max(WITH_FEWER_BOUNCES)
+                }
+                true => effort.misreading,
+                false => effort.slow_misreading,
+            };
+            measure(hypothesis, places, emitted, max_bounces).0
+        };
+        let misreadings = misreadings().par_iter().map(of_misreading).collect();
+        let of_pair = |pair: &Hypothesis| measure(pair, places, effort.pair, max_bounces).0;
+        let pairs = pairs().par_iter().map(of_pair).collect();
+        Self { max_bounces, fair, misreadings, pairs, correlation }
+    }
+}
+
+impl Signature {
+    /// The law of the classes, where the mean of a facet may be off by the part `leeway` of itself.
+    pub fn law_of_classes(&self, leeway: f64) -> Law {
+        Law {
+            mean: self.classes.clone(),
+            covariance: self.covariance.clone(),
+            measured_with: self.emitted,
+            leeway: leeway_of_classes(leeway, self.classes.len()),
+        }
+    }
+
+    /// The law of the cells, whose photons go together as `correlation` says.
+    pub fn law_of_cells(&self, correlation: &Matrix, leeway: f64) -> Law {
+        let deviation: Vec<f64> = self.variance.iter().map(|variance| variance.sqrt()).collect();
+        let covariance = correlation.iter().enumerate().map(|(a, row)| {
+            row.iter().enumerate().map(|(b, entry)| entry * deviation[a] * deviation[b]).collect()
+        });
+        Law {
+            mean: self.cells.clone(),
+            covariance: covariance.collect(),
+            measured_with: self.emitted,
+            leeway: vec![leeway; self.cells.len()],
+        }
+    }
+
+    /// The law of the classes after `bounce` bounces more than the first: of these, a path has at most
+    /// one photon, so that they are multinomial.
+    pub fn law_of_bounce(&self, bounce: usize, leeway: f64) -> Law {
+        let mean = self.by_bounce[bounce].clone();
+        let covariance = (0..mean.len()).map(|a| {
+            let entry = |b| if a == b { mean[a] * (1.0 - mean[a]) } else { -mean[a] * mean[b] };
+            (0..mean.len()).map(entry).collect()
+        });
+        Law {
+            covariance: covariance.collect(),
+            leeway: leeway_of_classes(leeway, mean.len()),
+            mean,
+            measured_with: self.emitted,
+        }
+    }
+}
+
+/// How many photons are close to a corner depends on how far off the surface they are stored, if that is
+/// along the photon's ray.
+fn leeway_of_classes(leeway: f64, classes: usize) -> Vec<f64> {
+    let mut of_classes = vec![leeway; classes];
+    of_classes[classes - 2] = LEEWAY_OF_CORNERS;
+    of_classes
+}
+
+/// The classes of `counts`.
+pub fn classes(counts: &Counts, places: &Places) -> Vec<f64> {
+    let facets = places.facets.iter().map(|facet| {
+        let cells = facet.first_cell..facet.first_cell + facet.divisions * facet.divisions;
+        counts.cells[cells].iter().sum()
+    });
+    facets.chain([counts.corner, counts.footprint]).collect()
+}
+
+/// Sums over photons, and over pairs of photons of one path.
+struct Sums {
+    cells: Vec<f64>,
+    of_cells: Matrix,
+    classes: Vec<f64>,
+    of_classes: Matrix,
+    by_bounce: Vec<Vec<f64>>,
+}
+
+impl Sums {
+    fn new(cells: usize, classes: usize) -> Self {
+        Self {
+            cells: vec![0.0; cells],
+            of_cells: vec![vec![0.0; cells]; cells],
+            classes: vec![0.0; classes],
+            of_classes: vec![vec![0.0; classes]; classes],
+            by_bounce: vec![vec![0.0; classes]; BOUNCES],
+        }
+    }
+
+    /// Adds what one path stores.
+    fn add_path(&mut self, path: &[PhotonRecord], places: &Places) {
+        let located: Vec<_> = path
+            .iter()
+            .map(|record| (places.place(record.position.as_dvec3()), record.bounce))
+            .filter_map(|(place, bounce)| Some((places.class_and_cell(place)?, bounce)))
+            .collect();
+        for ((class, cell), bounce) in &located {
+            self.classes[*class] += 1.0;
+            if let Some(counts) = self.by_bounce.get_mut(usize::from(*bounce).wrapping_sub(1)) {
+                counts[*class] += 1.0;
+            }
+            for ((other, _), _) in &located {
+                self.of_classes[*class][*other] += 1.0;
+            }
+            let Some(cell) = cell else { continue };
+            self.cells[*cell] += 1.0;
+            for ((_, other), _) in &located {
+                if let Some(other) = other {
+                    self.of_cells[*cell][*other] += 1.0;
+                }
+            }
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        let add = |sums: &mut Vec<f64>, others: &Vec<f64>| {
+            sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
+        };
+        add(&mut self.cells, &other.cells);
+        add(&mut self.classes, &other.classes);
+        self.of_cells.iter_mut().zip(&other.of_cells).for_each(|(a, b)| add(a, b));
+        self.of_classes.iter_mut().zip(&other.of_classes).for_each(|(a, b)| add(a, b));
+        self.by_bounce.iter_mut().zip(&other.by_bounce).for_each(|(a, b)| add(a, b));
+    }
+}
+
+/// Measures the signature of `hypothesis` with `emitted` photons, and the covariance of its cells.
+pub fn measure(
+    hypothesis: &Hypothesis,
+    places: &Places,
+    emitted: u64,
+    max_bounces: i32,
+) -> (Signature, Matrix) {
+    let simulation = Simulation::new(hypothesis.variation, SEED, emitted, max_bounces);
+    let classes = places.facets.len() + 2;
+    let piece = |photons: Range<u64>| {
+        let mut sums = Sums::new(places.cells, classes);
+        let records = simulation.trace(photons);
+        records.chunk_by(|a, b| a.photon == b.photon).for_each(|path| sums.add_path(path, places));
+        sums
+    };
+    let starts: Vec<u64> = (0..emitted).step_by(PIECE as usize).collect();
+    let mut sums = Sums::new(places.cells, classes);
+    // In waves, added in order: the sums are whole numbers, but memory is not to grow with them.
+    for wave in starts.chunks(256) {
+        let pieces: Vec<Sums> =
+            wave.par_iter().map(|start| piece(*start..emitted.min(start + PIECE))).collect();
+        pieces.iter().for_each(|of_piece| sums.add(of_piece));
+    }
+    let count = emitted as f64;
+    let mean = |sums: &[f64]| sums.iter().map(|sum| sum / count).collect::<Vec<f64>>();
+    let covariance = |pairs: &Matrix, mean: &[f64]| -> Matrix {
+        let row = |(a, row): (usize, &Vec<f64>)| {
+            row.iter().enumerate().map(|(b, sum)| sum / count - mean[a] * mean[b]).collect()
+        };
+        pairs.iter().enumerate().map(row).collect()
+    };
+    let (cells, in_classes) = (mean(&sums.cells), mean(&sums.classes));
+    let of_cells = covariance(&sums.of_cells, &cells);
+    let signature = Signature {
+        emitted: count,
+        variance: (0..cells.len()).map(|cell| of_cells[cell][cell]).collect(),
+        covariance: covariance(&sums.of_classes, &in_classes),
+        by_bounce: sums.by_bounce.iter().map(|sums| mean(sums)).collect(),
+        cells,
+        classes: in_classes,
+    };
+    (signature, of_cells)
+}
+
+fn correlate(covariance: &Matrix) -> Matrix {
+    let entry =
+        |a: usize, b: usize| covariance[a][b] / (covariance[a][a] * covariance[b][b]).sqrt();
+    (0..covariance.len()).map(|a| (0..covariance.len()).map(|b| entry(a, b)).collect()).collect()
+}
+
+/// The bounces of the assignment as it stands.
+pub const MAX_BOUNCES: i32 = assignment8::MAX_PHOTON_BOUNCES;

@@ -1,0 +1,307 @@
+//! One student's submission, and its grade.
+
+use std::path::{Path, PathBuf};
+
+use super::axes;
+use super::exact::exact_comparison;
+use super::judge_list::{Expectations, Judgement, judge};
+use super::naming::Explanation;
+use super::observation::observe;
+use super::picture::dots::find_dots;
+use super::picture::judge_picture;
+use super::picture::reading::read_picture;
+use super::picture::view::PIXELS;
+use super::policy::Policy;
+use super::text::printable;
+use super::verdict::{Finding, Grade, Verdict, Weight};
+use photon_list::error::ListError;
+use photon_list::reader::{self, PhotonList};
+use photon_mapping::assignment8;
+
+/// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with ten
+/// million photons and every mistake at once has fewer than this.
+pub const MOST_RECORDS: usize = 5_000_000;
+
+/// A list and a picture of one run have more than this part of their red pixels in common.
+const TOGETHER: f64 = 0.5;
+/// Of fewer red pixels, it is not said that they do not.
+const FEWEST_DOTS: f64 = 100.0;
+
+/// What one student handed in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Submission {
+    /// What it is called in the grade.
+    pub name: String,
+    /// The photon list, if there is one.
+    pub list: Option<PathBuf>,
+    /// The picture, if there is one.
+    pub picture: Option<PathBuf>,
+}
+
+/// How submissions are graded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// How many photons were sent out, if the course says so.
+    pub emitted: Option<u64>,
+    /// The seed of lists that follow the reference's streams.
+    pub seed: u64,
+    /// What a verdict is worth.
+    pub policy: Policy,
+}
+
+/// A grade, and what it was given for.
+#[derive(Clone, Debug)]
+pub struct Graded {
+    /// The grade.
+    pub grade: Grade,
+    /// The list, if it could be read, with what was concluded from it.
+    pub list: Option<(PhotonList, Judgement)>,
+}
+
+/// Grades `submission`. Whatever is wrong with its files is part of the grade.
+pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expectations) -> Graded {
+    let Some(path) = &submission.list else {
+        return match &submission.picture {
+            Some(picture) => grade_picture(submission, picture, settings, expectations),
+            None => unreadable(submission, settings, "there is no photon list, and no picture"),
+        };
+    };
+    let mut graded = match reader::load_at_most(path, MOST_RECORDS) {
+        Ok((mut list, guessed)) => {
+            let is_turned = axes::turn_to_world(&mut list, &expectations.places);
+            let mut graded = grade_list(submission, list, settings, expectations);
+            let turned =
+                is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
+            let notes = guessed.as_deref().into_iter().chain(turned);
+            graded.grade.findings.extend(notes.map(|note| {
+                let expected = "columns x, y and z, in world space, with commas between them";
+                let advice = "Write the position as the framework has it, under these names.";
+                remark("format", expected, note, advice)
+            }));
+            graded
+        }
+        // The name of the submission says already which file it is.
+        Err(ListError::Malformed { message, .. }) => unreadable(submission, settings, &message),
+        Err(ListError::Unreadable { source, .. }) => {
+            unreadable(submission, settings, &format!("it cannot be read: {source}"))
+        }
+    };
+    if let (Some(picture), Verdict::Unreadable) = (&submission.picture, graded.grade.verdict) {
+        let of_list = graded.grade.findings.remove(0);
+        let mut of_picture = grade_picture(submission, picture, settings, expectations);
+        // Where the picture says nothing either, both reasons do.
+        let weight = match of_picture.grade.verdict {
+            Verdict::Unreadable => Weight::Grave,
+            _ => Weight::Remark,
+        };
+        let of_list = Finding { check: "photon list", weight, ..of_list };
+        of_picture.grade.findings.push(of_list);
+        return of_picture;
+    }
+    if let Some(picture) = &submission.picture {
+        let emitted = settings.emitted.map(|emitted| emitted as f64);
+        let findings = match judge_picture(picture, emitted, expectations.pictures()) {
+            Ok(judgement) => judgement.findings,
+            Err(reason) => vec![not_readable(&reason)],
+        };
+        // The list says the same more exactly, so it alone decides.
+        let remarks =
+            findings.into_iter().map(|finding| Finding { weight: Weight::Remark, ..finding });
+        graded.grade.findings.extend(remarks);
+        if let Some((list, _)) = &graded.list {
+            graded.grade.findings.extend(apart(list, picture, expectations));
+        }
+    }
+    graded
+}
+
+fn grade_picture(
+    submission: &Submission,
+    picture: &Path,
+    settings: &Settings,
+    expectations: &Expectations,
+) -> Graded {
+    let emitted = settings.emitted.map(|emitted| emitted as f64);
+    let judgement = match judge_picture(picture, emitted, expectations.pictures()) {
+        Ok(judgement) => judgement,
+        Err(reason) => return unreadable(submission, settings, &reason),
+    };
+    let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
+    let verdict = match faults().next() {
+        None => Verdict::Correct,
+        Some(_) if judgement.has_dots => Verdict::Incorrect,
+        Some(_) => Verdict::NoDots,
+    };
+    let misreading = judgement.explanation.as_ref();
+    let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
+    let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
+        && !stores_direct(&judgement.explanation, &judgement.pair);
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: None,
+        score: settings.policy.score(verdict, misreading_id, is_plausible),
+        verdict,
+        misreading: misreading_id,
+        misreading_confidence: misreading.map(|explanation| explanation.confidence),
+        misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
+        findings: judgement.findings.clone(),
+    };
+    Graded { grade, list: None }
+}
+
+/// Whether photons straight from the light are part of what explains a submission.
+fn stores_direct(alone: &Option<Explanation>, pair: &Option<Explanation>) -> bool {
+    alone.iter().chain(pair).any(|explanation| explanation.hypothesis.variation.direct_stored)
+}
+
+/// A remark, if the dots of `picture` are not the photons of `list`.
+fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Option<Finding> {
+    let expectations = expectations.pictures();
+    let picture = read_picture(picture).ok()?;
+    let dots = find_dots(&picture, &expectations.view, || expectations.shifted()).ok()?;
+    let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
+    let mut of_list = vec![false; PIXELS];
+    for record in &list.records {
+        view.for_each_pixel_of(record.position, |pixel| of_list[pixel] = true);
+    }
+    let inside = |pixel: &usize| view.patch(*pixel).is_some();
+    let count = |is_counted: &dyn Fn(usize) -> bool| {
+        (0..PIXELS).filter(inside).filter(|pixel| is_counted(*pixel)).count() as f64
+    };
+    let both = count(&|pixel| dots.red[pixel] && of_list[pixel]);
+    let [of_picture, of_list] = [count(&|pixel| dots.red[pixel]), count(&|pixel| of_list[pixel])];
+    let least = of_picture.min(of_list);
+    let fewer = (of_picture / of_list).min(of_list / of_picture);
+    if least < FEWEST_DOTS || (both > TOGETHER * least && fewer > TOGETHER) {
+        return None;
+    }
+    let found = format!(
+        "of {of_picture:.0} red pixels of the picture and {of_list:.0} of the list's photons, {both:.0} are \
+         the same"
+    );
+    let advice = "Hand in the list and the picture of one run: the list is what is graded.";
+    Some(remark("list and picture", "dots where the list's photons are", &found, advice))
+}
+
+/// A finding that costs nothing.
+pub fn remark(check: &'static str, expected: &str, found: &str, advice: &'static str) -> Finding {
+    Finding {
+        check,
+        section: None,
+        expected: expected.to_owned(),
+        found: printable(found),
+        p_value: None,
+        passed: false,
+        weight: Weight::Remark,
+        advice: advice.into(),
+    }
+}
+
+/// The grade of a submission that is none, for `reason`.
+pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) -> Graded {
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: None,
+        score: settings.policy.score(Verdict::Unreadable, None, false),
+        verdict: Verdict::Unreadable,
+        misreading: None,
+        misreading_confidence: None,
+        misreading_title: None,
+        findings: vec![not_readable(reason)],
+    };
+    Graded { grade, list: None }
+}
+
+fn not_readable(reason: &str) -> Finding {
+    Finding {
+        check: "readable",
+        section: None,
+        expected: "a photon list (CSV or PLY, with the columns x, y and z), or a picture"
+            .to_owned(),
+        found: printable(reason),
+        p_value: None,
+        passed: false,
+        weight: Weight::Grave,
+        advice:
+            "Hand in the list that the dump header writes, or the PNG picture as the program wrote \
+                 it."
+            .into(),
+    }
+}
+
+fn grade_list(
+    submission: &Submission,
+    list: PhotonList,
+    settings: &Settings,
+    expectations: &Expectations,
+) -> Graded {
+    let light = assignment8::create_scene().lights()[0].position.as_dvec3();
+    let observation = observe(&list, &expectations.places, light);
+    let finite = observation.records as f64 - observation.counts.not_finite;
+    if observation.records > 0 && finite == 0.0 {
+        return unreadable(submission, settings, "no position in the list is a finite number");
+    }
+    if observation.records == 0 {
+        return no_photons(submission, settings);
+    }
+    let by_user = settings.emitted.map(|emitted| emitted as f64);
+    let emitted = by_user.or(observation.emitted_by_intensity);
+    let mut judgement = judge(&observation, emitted, by_user.is_some(), expectations);
+    let exact = exact_comparison(
+        &list,
+        settings,
+        expectations.signatures.max_bounces,
+        emitted.map(|emitted| emitted as u64),
+    );
+    judgement.findings.extend(exact);
+    let misreading = judgement.explanation.as_ref();
+    let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
+    let verdict = match faults().next() {
+        None => Verdict::Correct,
+        Some(_) => Verdict::Incorrect,
+    };
+    let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
+    let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
+        && !stores_direct(&judgement.explanation, &judgement.pair);
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: emitted.map(|emitted| emitted as u64),
+        stored: Some(observation.records),
+        score: settings.policy.score(verdict, misreading_id, is_plausible),
+        verdict,
+        misreading: misreading_id,
+        misreading_confidence: misreading.map(|explanation| explanation.confidence),
+        misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
+        findings: judgement.findings.clone(),
+    };
+    Graded { grade, list: Some((list, judgement)) }
+}
+
+fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
+    let finding = Finding {
+        check: "photons",
+        section: Some("Photon Storage"),
+        expected: "photons that have bounced".to_owned(),
+        found: "the list is empty".to_owned(),
+        p_value: None,
+        passed: false,
+        weight: Weight::Fault,
+        advice: "Insert a photon where the size of 'path' is larger than 1; check that 'path' grows and \
+                 that TracePhoton calls itself."
+            .into(),
+    };
+    let grade = Grade {
+        submission: submission.name.clone(),
+        emitted: settings.emitted,
+        stored: Some(0),
+        score: settings.policy.score(Verdict::NoDots, None, false),
+        verdict: Verdict::NoDots,
+        misreading: None,
+        misreading_confidence: None,
+        misreading_title: None,
+        findings: vec![finding],
+    };
+    Graded { grade, list: None }
+}

@@ -1,0 +1,12 @@
+//! Photon lists as files: reading what programs write, writing, and joining the parts of a run.
+//!
+//! The records themselves, their hash and their order are those of [`photon_mapping::photon_list`].
+
+pub mod csv;
+mod dialect;
+pub mod error;
+pub mod ply;
+pub mod reader;
+pub mod record;
+pub mod run;
+pub mod writer;

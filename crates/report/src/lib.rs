@@ -1,0 +1,65 @@
+//! `report`: what speed, precision, offset and sampler do to the accuracy, as a page with plots.
+//!
+//! A file for each section of the page; each measures, and gives its part of the page together with
+//! the numbers behind it as CSV. All errors are against [`oracle`], which traces nothing.
+
+pub mod both_precisions;
+pub mod convergence;
+pub mod csv;
+pub mod hits;
+pub mod judge;
+pub mod machine;
+pub mod offset;
+pub mod page;
+pub mod plan;
+pub mod plot;
+pub mod precision;
+pub mod rules;
+pub mod samplers;
+pub mod speed_runs;
+pub mod statistics;
+pub mod transform;
+pub mod true_paths;
+
+use plan::Plan;
+
+/// The files of a report, in the order in which the page names them.
+pub const FILES: [&str; 12] = [
+    "report.md",
+    "speed-runs.csv",
+    "speed.csv",
+    "speed.svg",
+    "precision.csv",
+    "precision-summary.csv",
+    "precision.svg",
+    "offset.csv",
+    "offset.svg",
+    "sampler-runs.csv",
+    "sampler.csv",
+    "sampler.svg",
+];
+
+/// A part of the page, and the files it shows or rests on.
+pub struct Section {
+    /// Markdown, with its heading.
+    pub markdown: String,
+    /// Names out of [`FILES`], and what is in them.
+    pub files: Vec<(&'static str, String)>,
+}
+
+/// Measures all that `plan` asks for, and gives the files of the report: names out of [`FILES`], and
+/// what is in them. `progress` is told how many more photons have been traced.
+pub fn run(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Vec<(&'static str, String)> {
+    let speed = speed_runs::measure(plan, progress);
+    let sections = [
+        convergence::section(&speed),
+        precision::section(&precision::measure(plan, progress)),
+        offset::section(plan, &offset::measure(plan, progress)),
+        samplers::section(&samplers::measure(plan, progress)),
+        machine::section(plan),
+    ];
+    let page = page::assemble(plan, &sections);
+    let mut files = vec![("report.md", page)];
+    files.extend(sections.into_iter().flat_map(|section| section.files));
+    files
+}

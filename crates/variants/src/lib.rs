@@ -1,0 +1,13 @@
+//! Every tracer that is not the reference: fair readings of the handout, misreadings, another sampler.
+//!
+//! [`run::Run`] is what the toolkit traces. Where it is the reference, the port or the fast path does it.
+
+pub mod hypotheses;
+pub mod pairs;
+pub mod reading;
+pub mod run;
+pub mod sampler;
+pub mod section;
+mod sobol;
+pub mod tracer;
+pub mod variation;

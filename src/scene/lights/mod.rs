@@ -1,3 +1,0 @@
-//! Where photons come from.
-
-pub mod point_light;

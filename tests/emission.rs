@@ -1,0 +1,66 @@
+//! Photon Emission: `PointLight::generate_random_photon_ray`.
+
+mod common;
+
+use common::{draws, is_unit, light, standard_errors};
+use glam::Vec3;
+use photon_mapping::random::photon_random;
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+    #[test]
+    fn emitted_rays_start_at_the_light_and_are_unit(seed: u64, photon: u64) {
+        let ray = light().generate_random_photon_ray(&mut photon_random(seed, photon));
+        prop_assert!(is_unit(ray.ray_direction()));
+        prop_assert_eq!(ray.position(), light().position);
+    }
+}
+
+/// The direction of a photon that draws `numbers`.
+fn direction(numbers: &[f32]) -> Vec3 {
+    light().generate_random_photon_ray(&mut draws(numbers)).ray_direction()
+}
+
+#[test]
+fn numbers_become_x_y_and_z_from_minus_one_to_one() {
+    assert_eq!(direction(&[0.75, 0.5, 0.5]), Vec3::X);
+    assert_eq!(direction(&[0.5, 0.25, 0.5]), Vec3::NEG_Y);
+    assert_eq!(direction(&[0.5, 0.5, 0.875]), Vec3::Z);
+}
+
+#[test]
+fn three_draws_that_give_the_zero_vector_are_drawn_again() {
+    assert_eq!(direction(&[0.5, 0.5, 0.5, 0.5, 0.5, 0.75]), Vec3::Z);
+}
+
+#[test]
+fn squared_length_exactly_one_is_accepted() {
+    assert_eq!(direction(&[0.0, 0.5, 0.5]), Vec3::NEG_X);
+}
+
+#[test]
+fn squared_length_just_above_one_is_rejected() {
+    assert_eq!(direction(&[0.0, 0.5, 0.501, 0.5, 0.0, 0.5]), Vec3::NEG_Y);
+}
+
+#[test]
+fn emitted_directions_are_uniform_on_the_sphere() {
+    let directions: Vec<_> = (0..400_000)
+        .map(|photon| {
+            let ray = light().generate_random_photon_ray(&mut photon_random(7, photon));
+            ray.ray_direction().as_dvec3()
+        })
+        .collect();
+    for axis in 0..3 {
+        let other = (axis + 1) % 3;
+        let of = |power: i32| directions.iter().map(move |d| d[axis].powi(power));
+        assert!(standard_errors(of(1), 0.0).abs() < 4.0);
+        assert!(standard_errors(of(2), 1.0 / 3.0).abs() < 4.0);
+        // A direction from the whole cube has E[x^4] = 0.1834 and fails here.
+        assert!(standard_errors(of(4), 1.0 / 5.0).abs() < 4.0);
+        let mixed = directions.iter().map(|d| d[axis] * d[other]);
+        assert!(standard_errors(mixed, 0.0).abs() < 4.0);
+    }
+}
