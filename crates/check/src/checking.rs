@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use photon_mapping::photon_list::reader::PhotonList;
-use photon_mapping::photon_list::record::Columns;
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
 
 use crate::compile::Workshop;
 use crate::error::CheckError;
@@ -100,13 +100,19 @@ fn remarks(observed: &Observed) -> Vec<String> {
         remarks.push("a process was to be started, which is not allowed here".to_owned());
     }
     if observed.printed_bytes > 0 {
-        let first: String = observed.printed.lines().next().unwrap_or_default().chars().take(60).collect();
+        let first: String =
+            observed.printed.lines().next().unwrap_or_default().chars().take(60).collect();
         let first: String =
             first.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
-        remarks.push(format!("it prints {} bytes, which start with \"{first}\"", observed.printed_bytes));
+        remarks.push(format!(
+            "it prints {} bytes, which start with \"{first}\"",
+            observed.printed_bytes
+        ));
     }
     if has(Notice::NotGuarded) {
-        remarks.push("this system has no filter for system calls: run submissions in a container".to_owned());
+        remarks.push(
+            "this system has no filter for system calls: run submissions in a container".to_owned(),
+        );
     }
     if !has_bubblewrap() {
         remarks.push(
@@ -118,7 +124,8 @@ fn remarks(observed: &Observed) -> Vec<String> {
 }
 
 fn add_whole(observed: Observed, report: &mut Report) {
-    let death = observed.death(Step::Whole).map(|death| format!("the whole run {}", death.sentence()));
+    let death =
+        observed.death(Step::Whole).map(|death| format!("the whole run {}", death.sentence()));
     report.whole.death = death;
     let whole = observed.log.whole;
     debug_assert!(plan::steps().last() == Some(&Step::Whole));

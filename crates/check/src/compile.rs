@@ -62,8 +62,7 @@ impl<'kit> Workshop<'kit> {
             [(light, LIGHT, LIGHT_FOLDER), (renderer, RENDERER, RENDERER_FOLDER)]
         {
             let place = folder.path().join("submission").join(home);
-            let unreadable =
-                |source| CheckError::Unreadable { path: file.to_owned(), source };
+            let unreadable = |source| CheckError::Unreadable { path: file.to_owned(), source };
             for other in beside(file) {
                 let other_name = other.file_name().unwrap_or_default();
                 // Neither of the two may stand where the other belongs.
@@ -163,9 +162,11 @@ impl<'kit> Workshop<'kit> {
     ) -> Result<Result<Object, BuildError>, CheckError> {
         let mut first_error = None;
         for standard in STANDARDS {
-            let number = source.display().to_string().bytes().fold(7_u64, |hash, byte| {
-                hash.wrapping_mul(31).wrapping_add(u64::from(byte))
-            });
+            let number = source
+                .display()
+                .to_string()
+                .bytes()
+                .fold(7_u64, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)));
             let object = self.path().join(format!("{number:x}.o"));
             let list = object.with_extension("d");
             let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into()];
@@ -398,7 +399,8 @@ mod tests {
 
     #[test]
     fn errors_of_both_compilers_are_read() {
-        let of_gcc = "/tmp/a/PointLight.cpp:12:9: error: 'RandFloat01' was not declared in this scope";
+        let of_gcc =
+            "/tmp/a/PointLight.cpp:12:9: error: 'RandFloat01' was not declared in this scope";
         let error = parse_error(of_gcc).expect("an error");
         assert_eq!((error.file.as_str(), error.line), ("/tmp/a/PointLight.cpp", 12));
         assert_eq!(missing_name(&error.message).as_deref(), Some("RandFloat01"));

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::Vec3;
-use photon_mapping::photon_list::record::{PhotonRecord, ROW_BYTES};
+use photon_mapping::photon_list::{PhotonRecord, ROW_BYTES};
 
 /// A question to the scene: what does this ray meet?
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -109,8 +109,7 @@ pub fn steps() -> Vec<Step> {
 /// The file for the harness, with `photons` photons in the whole run.
 pub fn file(photons: u64) -> String {
     let mut file = String::new();
-    let mut scenes = 0;
-    for step in steps() {
+    for (scenes, step) in steps().into_iter().enumerate() {
         add_scene(step, &mut file);
         let what = match step {
             Step::Emit => format!("emit {scenes} {CALLS} 0"),
@@ -124,7 +123,6 @@ pub fn file(photons: u64) -> String {
             _ => trace(step, scenes),
         };
         line(&mut file, &what);
-        scenes += 1;
     }
     file
 }
@@ -157,7 +155,7 @@ pub fn rays(step: Step) -> Vec<[Vec3; 2]> {
         .map(|i| {
             let angle = i as f32 * 2.4;
             let slant = 0.1 + 0.05 * i as f32;
-            let aside = slant * (angle.cos() * across + angle.sin() * along);
+            let aside = slant * (libm::cosf(angle) * across + libm::sinf(angle) * along);
             let start = CENTRE + 0.7 * normal + 0.3 * aside;
             [start, (aside - normal).normalize()]
         })

@@ -1,6 +1,6 @@
 //! What is said about one submission.
 
-use photon_mapping::photon_list::reader::PhotonList;
+use photon_list::reader::PhotonList;
 use serde::Serialize;
 
 use crate::compile::BuildError;

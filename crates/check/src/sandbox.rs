@@ -78,7 +78,17 @@ pub fn has_bubblewrap() -> bool {
     static WORKS: OnceLock<bool> = OnceLock::new();
     *WORKS.get_or_init(|| {
         Command::new("bwrap")
-            .args(["--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--unshare-all", "true"])
+            .args([
+                "--ro-bind",
+                "/",
+                "/",
+                "--dev",
+                "/dev",
+                "--proc",
+                "/proc",
+                "--unshare-all",
+                "true",
+            ])
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::null())
@@ -89,7 +99,8 @@ pub fn has_bubblewrap() -> bool {
 
 /// What the shell does before the program: sets the limits, gives the pipe of standard output the number 3, and
 /// lets what is printed go where errors go. A limit that the system does not know is passed over.
-const SHELL: &str = "{ ulimit -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
+const SHELL: &str =
+    "{ ulimit -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
 shift 3
 exec \"$@\" 3>&1 1>&2 </dev/null";
 

@@ -109,9 +109,8 @@ impl Directions {
             .map(|ray| (inverse * ray.direction).normalize_or_zero())
             .collect();
         let sines = local.iter().map(|v| f64::from(v.x * v.x + v.y * v.y).min(1.0)).collect();
-        let around = local.iter().map(|v| {
-            f64::from(v.y.atan2(v.x)) / std::f64::consts::TAU + 0.5
-        });
+        let around =
+            local.iter().map(|v| f64::from(libm::atan2f(v.y, v.x)) / std::f64::consts::TAU + 0.5);
         let around = around.collect();
         let above = local.iter().filter(|v| v.z > 0.0).count() as f64 / local.len().max(1) as f64;
         [sines, around, vec![above]]

@@ -12,8 +12,7 @@ use crate::statistics::{are_alike, mean};
 /// So many directions of every law are drawn, to hold the submission's against.
 const DRAWN: u64 = 20_000;
 
-const REJECT: &str =
-    "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.";
+const REJECT: &str = "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.";
 
 /// A law that directions may follow: its name, if it is a known misreading, what it is, and one draw of it.
 struct Law {
@@ -49,7 +48,8 @@ fn outside(rand: &mut dyn FnMut() -> f32) -> Vec3 {
 
 fn angles(rand: &mut dyn FnMut() -> f32) -> Vec3 {
     let (theta, phi) = (std::f32::consts::PI * rand(), std::f32::consts::TAU * rand());
-    Vec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+    let sine = libm::sinf(theta);
+    Vec3::new(sine * libm::cosf(phi), sine * libm::sinf(phi), libm::cosf(theta))
 }
 
 const LAWS: [Law; 5] = [
@@ -92,11 +92,8 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
     let steps = [Step::Emit, Step::EmitCorner, Step::EmitOnSphere, Step::EmitZero];
     let function = "GenerateRandomPhotonRay";
     let log = observed.step(Step::Emit);
-    let rays: Vec<_> = log
-        .iter()
-        .flat_map(|log| &log.calls)
-        .filter_map(|call| call.emitted)
-        .collect();
+    let rays: Vec<_> =
+        log.iter().flat_map(|log| &log.calls).filter_map(|call| call.emitted).collect();
     if rays.is_empty() {
         if steps.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("GenerateRandomPhotonRay was not called");
@@ -135,7 +132,11 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
     let not_finite = directions.iter().filter(|direction| !direction.is_finite()).count();
     if not_finite > 0 {
         let found = format!("{not_finite} of {total} directions are not finite numbers");
-        verdict.fault(None, found, "Look for a division by zero, or the root of a negative number.");
+        verdict.fault(
+            None,
+            found,
+            "Look for a division by zero, or the root of a negative number.",
+        );
         return false;
     }
     let first = directions[0];
@@ -152,12 +153,12 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
         verdict.fault(None, found, "Dividing two integers, rand() / RAND_MAX, gives 0.");
         return false;
     }
-    let lengths: Vec<_> = directions.iter().map(|direction| f64::from(direction.length())).collect();
+    let lengths: Vec<_> =
+        directions.iter().map(|direction| f64::from(direction.length())).collect();
     let other = lengths.iter().filter(|length| (*length - 1.0).abs() > 1e-3).count();
     if other > 0 {
-        let [least, most] = [f64::min, f64::max].map(|pick| {
-            lengths.iter().copied().reduce(pick).unwrap_or_default()
-        });
+        let [least, most] = [f64::min, f64::max]
+            .map(|pick| lengths.iter().copied().reduce(pick).unwrap_or_default());
         let found = format!(
             "{other} of {total} directions are not unit vectors: their lengths go from {least:.2} to \
              {most:.2}"
@@ -184,15 +185,18 @@ fn judge_law(directions: &[Vec3], verdict: &mut Verdict) {
          due, and {above} of {} go up",
         directions.len()
     );
-    verdict.fault(None, found, "Draw x, y and z one by one in [-1, 1), and again while x^2 + y^2 + z^2 > 1.");
+    verdict.fault(
+        None,
+        found,
+        "Draw x, y and z one by one in [-1, 1), and again while x^2 + y^2 + z^2 > 1.",
+    );
 }
 
 /// Numbers of every direction in which laws differ.
 fn features(directions: impl Iterator<Item = Vec3>) -> Vec<Vec<f64>> {
     let mut features = vec![Vec::new(); 7];
     for v in directions {
-        let of_one =
-            [v.x, v.y, v.z, v.abs().max_element(), v.x * v.y, v.y * v.z, v.z * v.x];
+        let of_one = [v.x, v.y, v.z, v.abs().max_element(), v.x * v.y, v.y * v.z, v.z * v.x];
         for (feature, number) in features.iter_mut().zip(of_one) {
             feature.push(f64::from(number));
         }

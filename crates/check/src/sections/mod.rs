@@ -34,13 +34,8 @@ pub enum Section {
 
 impl Section {
     /// All, in the handout's order.
-    pub const ALL: [Self; 5] = [
-        Self::Emission,
-        Self::Storage,
-        Self::Scattering,
-        Self::Sampling,
-        Self::Transformation,
-    ];
+    pub const ALL: [Self; 5] =
+        [Self::Emission, Self::Storage, Self::Scattering, Self::Sampling, Self::Transformation];
 
     /// Its title in the handout.
     pub fn title(self) -> &'static str {

@@ -44,7 +44,7 @@ const LAWS: [Law; 7] = [
         name: "even-angle",
         what: "the angle to the normal is even, as in theta = pi / 2 u1",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
-        squared_sine: |u| (std::f64::consts::FRAC_PI_2 * u).sin().powi(2),
+        squared_sine: |u| libm::sin(std::f64::consts::FRAC_PI_2 * u).powi(2),
     },
     Law {
         name: "cosine-cubed",
@@ -75,7 +75,8 @@ pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
     }
     let not_finite = directions.floor.iter().filter(|ray| !ray.direction.is_finite()).count();
     if not_finite > 0 {
-        let found = format!("{not_finite} of {total} directions over a floor are not finite numbers");
+        let found =
+            format!("{not_finite} of {total} directions over a floor are not finite numbers");
         let advice = "sqrt of a negative number is NaN: u1 must lie in [0, 1).";
         verdict.fault(Some("not-finite"), found, advice);
     } else if directions.frame_of_floor.is_none() {
@@ -100,7 +101,11 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
     }
     if below > 0 && below < total {
         let found = format!("{below} of {total} directions go below the floor, where none is due");
-        verdict.fault(Some("below-the-surface"), found, "z = sqrt(1 - u1) is never negative, equation (6).");
+        verdict.fault(
+            Some("below-the-surface"),
+            found,
+            "z = sqrt(1 - u1) is never negative, equation (6).",
+        );
         return;
     }
     let even: Vec<_> = (0..20_000).map(|i| (f64::from(i) + 0.5) / 20_000.0).collect();
@@ -111,19 +116,21 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
     let cosines: Vec<_> = sines.iter().map(|sine| (1.0 - sine).max(0.0).sqrt()).collect();
     let cosine = mean(&cosines);
     if let Some(law) = law {
-        let found = format!("{}: the mean cosine to the normal is {cosine:.3}, where 0.667 is due", law.what);
+        let found = format!(
+            "{}: the mean cosine to the normal is {cosine:.3}, where 0.667 is due",
+            law.what
+        );
         verdict.fault(Some(law.name), found, law.advice);
     } else if !is_uniform(sines) {
-        let found =
-            format!("directions do not follow the cosine: its mean is {cosine:.3}, where 0.667 is due");
+        let found = format!(
+            "directions do not follow the cosine: its mean is {cosine:.3}, where 0.667 is due"
+        );
         let advice = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).";
         verdict.fault(None, found, advice);
     }
     if !directions.is_even_around {
-        let (x, y): (Vec<_>, Vec<_>) = rays
-            .iter()
-            .map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y)))
-            .unzip();
+        let (x, y): (Vec<_>, Vec<_>) =
+            rays.iter().map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y))).unzip();
         let found = format!(
             "directions are not even around the normal: the means of x and y are {:.3} and {:.3}, where 0 is due",
             mean(&x),
@@ -141,7 +148,7 @@ fn judge_pairs(directions: &Directions, verdict: &mut Verdict) {
         // Around whichever axis the floor's directions lie.
         match directions.frame_of_floor {
             Some(Frame::OtherOrder) => None,
-            _ => Some(f64::from(d.y.atan2(d.x))),
+            _ => Some(f64::from(libm::atan2f(d.y, d.x))),
         }
     };
     let (mut near, mut far) = (Vec::new(), Vec::new());

@@ -115,9 +115,8 @@ const RULES: [Rule; 13] = [
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
     let mut verdict = Verdict::new(Section::Scattering);
-    let calls = |step: Step| -> &[Call] {
-        observed.step(step).map_or(&[], |log| log.calls.as_slice())
-    };
+    let calls =
+        |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
     // What happens at the first hit, by the wall's colour.
     let walls: Vec<_> = [
         (Step::Black, Vec3::ZERO),
@@ -158,9 +157,9 @@ fn counts(calls: &[Call], hit: usize) -> [usize; 2] {
 
 fn judge_rule(walls: &[(Vec3, [usize; 2])], verdict: &mut Verdict) -> bool {
     let fits = |chance: &dyn Fn(Vec3) -> f32| {
-        walls.iter().all(|(colour, [total, count])| {
-            may_happen(*count, *total, f64::from(chance(*colour)))
-        })
+        walls
+            .iter()
+            .all(|(colour, [total, count])| may_happen(*count, *total, f64::from(chance(*colour))))
     };
     if fits(&|colour| colour.max_element()) {
         return true;
@@ -182,7 +181,11 @@ fn judge_rule(walls: &[(Vec3, [usize; 2])], verdict: &mut Verdict) -> bool {
     let (name, what, advice) = match known {
         Some(rule) => (Some(rule.name), rule.what, rule.advice),
         None => match constant(walls) {
-            true => (Some("no-roulette"), "photons scatter with the same chance on every material", ROULETTE),
+            true => (
+                Some("no-roulette"),
+                "photons scatter with the same chance on every material",
+                ROULETTE,
+            ),
             false => (None, "photons do not scatter with the chance P_r", ROULETTE),
         },
     };
@@ -217,7 +220,9 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
     let mut parts = [[0_usize; 2]; 2];
     for call in calls.iter().filter(|call| call.hits().count() >= 2) {
         let first = call.hits().next().expect("there are two");
-        let Some(second) = call.traces.iter().filter(|trace| trace.has_state).nth(1) else { continue };
+        let Some(second) = call.traces.iter().filter(|trace| trace.has_state).nth(1) else {
+            continue;
+        };
         let axes = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
         let normal = axes[usize::from(first.triangle) / 2 % 6];
         let cosine = second.direction.normalize().dot(normal);
@@ -225,7 +230,8 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
         part[0] += 1;
         part[1] += usize::from(call.rays() > 2);
     }
-    let [far, near] = parts.map(|[total, count]| (total as f64, count as f64 / total.max(1) as f64));
+    let [far, near] =
+        parts.map(|[total, count]| (total as f64, count as f64 / total.max(1) as f64));
     let sigma = (0.25 / far.0.max(1.0) + 0.25 / near.0.max(1.0)).sqrt();
     if far.0 > 50.0 && near.0 > 50.0 && (far.1 - near.1).abs() > SIGMAS * sigma {
         let found = format!(

@@ -27,9 +27,8 @@ const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
     let mut verdict = Verdict::new(Section::Storage);
-    let calls = |step: Step| -> &[Call] {
-        observed.step(step).map_or(&[], |log| log.calls.as_slice())
-    };
+    let calls =
+        |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
     let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
     let asks = STEPS.iter().any(|step| calls(*step).iter().any(|call| call.rays() > 0));
     if !is_seen {
@@ -38,7 +37,8 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         }
     } else if !asks && STEPS.iter().all(|step| observed.death(*step).is_none()) {
         let found = "TracePhoton never calls storedScene->Trace with a state".to_owned();
-        let advice = "Call storedScene->Trace(photonRay, &state) below the line that sets currentIOR.";
+        let advice =
+            "Call storedScene->Trace(photonRay, &state) below the line that sets currentIOR.";
         verdict.fault(None, found, advice);
     } else {
         judge_first(calls(Step::StoreFirst), &mut verdict);
@@ -92,7 +92,8 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
         }
         let twice = with_hit.iter().filter(|call| repeats(call)).count();
         if twice > 0 {
-            let found = format!("a photon is stored more than once in {twice} of {} calls", with_hit.len());
+            let found =
+                format!("a photon is stored more than once in {twice} of {} calls", with_hit.len());
             verdict.fault(Some("stored-twice"), found, "Insert each photon once.");
             return;
         }
@@ -158,7 +159,8 @@ fn stores_hit(call: &Call, index: usize) -> bool {
     // Where a later hit lies in the same place, it may be that one.
     let Some(hit) = call.hits().nth(index) else { return false };
     let near = |position: Vec3| hit.hit().abs_diff_eq(position, OFF_SURFACE);
-    let others = call.hits().enumerate().filter(|(i, other)| *i != index && near(other.hit())).count();
+    let others =
+        call.hits().enumerate().filter(|(i, other)| *i != index && near(other.hit())).count();
     call.stored.iter().filter(|stored| near(stored.position)).count() > others
 }
 
@@ -208,7 +210,10 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
              1000; 1001 are due"
         );
         let (name, advice) = match count {
-            2 => ("no-recursion", "Call TracePhoton for the scattered ray in every call, not only in the first."),
+            2 => (
+                "no-recursion",
+                "Call TracePhoton for the scattered ray in every call, not only in the first.",
+            ),
             1000 => ("bounce-off-by-one", advice),
             _ => ("fewer-bounces", "Let remainingBounces alone decide when a path ends."),
         };

@@ -65,8 +65,9 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
             .count();
         let all_but_few = along as f64 > 0.95 * total as f64;
         if sampling_spreads && all_but_few {
-            let found =
-                format!("{along} of {total} photons leave along the normal where it is {normal}: t and b have no length");
+            let found = format!(
+                "{along} of {total} photons leave along the normal where it is {normal}: t and b have no length"
+            );
             let name = is_along_x.then_some("no-absolute-value");
             let advice = if normal.x < -0.999 { WALL } else { PARALLEL };
             verdict.fault(name, found, advice);
@@ -76,11 +77,8 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
             frames.push((*normal, directions.frame_of(*normal, rays)));
         }
     }
-    let unfair: Vec<_> = frames
-        .iter()
-        .filter(|(_, frame)| !frame.is_some_and(Frame::is_fair))
-        .copied()
-        .collect();
+    let unfair: Vec<_> =
+        frames.iter().filter(|(_, frame)| !frame.is_some_and(Frame::is_fair)).copied().collect();
     if unfair.is_empty() {
         judge_fair(&frames, verdict);
         return;
@@ -104,17 +102,21 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
             "photons leave below the surface they hit",
             "Use the normal of state.ComputeNormal() as it is, in the matrix's third column.",
         ),
-        Some(Frame::Transposed) => {
-            (Some("transposed-frame"), "t, b and n are the rows of the matrix, not its columns", COLUMNS)
-        }
+        Some(Frame::Transposed) => (
+            Some("transposed-frame"),
+            "t, b and n are the rows of the matrix, not its columns",
+            COLUMNS,
+        ),
         Some(Frame::None) => (
             Some("no-transformation"),
             "directions are those of tangent space, whatever the normal",
             "Multiply the matrix of t, b and n by the sampled direction before you trace the ray.",
         ),
-        Some(Frame::OtherOrder) => {
-            (Some("other-column-order"), "the normal is not the third column of the matrix", COLUMNS)
-        }
+        Some(Frame::OtherOrder) => (
+            Some("other-column-order"),
+            "the normal is not the third column of the matrix",
+            COLUMNS,
+        ),
         _ => (None, "directions are not those of the hemisphere around the normal", FRAME),
     };
     verdict.fault(name, format!("{what}: {seen}"), advice);
@@ -122,8 +124,7 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
 
 const NAN_WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, t is (0, 0, 0), and \
     normalising it gives NaN: compare the absolute value with your threshold.";
-const PARALLEL: &str =
-    "Where the normal is close to parallel with (1, 0, 0), take another vector, such as (0, 1, 0), in equation (7).";
+const PARALLEL: &str = "Where the normal is close to parallel with (1, 0, 0), take another vector, such as (0, 1, 0), in equation (7).";
 const FRAME: &str = "t = n x (1, 0, 0) and b = n x t, equations (7) and (8); the matrix with the columns t, b and n turns \
     the sample into world space.";
 
@@ -149,7 +150,9 @@ fn short(v: Vec3) -> String {
 fn judge_fair(frames: &[(Vec3, Option<Frame>)], verdict: &mut Verdict) {
     let has = |frame: Frame| frames.iter().any(|(_, other)| *other == Some(frame));
     if has(Frame::AsWritten) {
-        verdict.readings.push("t and b as equations (7) and (8) have them, not normalised".to_owned());
+        verdict
+            .readings
+            .push("t and b as equations (7) and (8) have them, not normalised".to_owned());
     } else if has(Frame::HalfAsWritten) {
         verdict.readings.push("t as equation (7) has it, b normalised".to_owned());
     }
@@ -177,7 +180,8 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
         }
     }
     if let Some((from, hit)) = elsewhere {
-        let found = format!("a scattered ray starts at {from}, and the photon hit the wall at {hit}");
+        let found =
+            format!("a scattered ray starts at {from}, and the photon hit the wall at {hit}");
         let advice = "Start the new ray at the point that was hit.";
         verdict.fault(Some("other-start"), found, advice);
         return;
@@ -189,7 +193,11 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
     if again as f64 > FEW * above as f64 {
         let found = format!(
             "{again} of {above} scattered photons met the very wall they left: the offset is {}",
-            if length < SHORTEST { "missing or too short".to_owned() } else { format!("{length:.0e}") }
+            if length < SHORTEST {
+                "missing or too short".to_owned()
+            } else {
+                format!("{length:.0e}")
+            }
         );
         let advice = "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the normal, as \
                       the framework does for shadow rays.";
