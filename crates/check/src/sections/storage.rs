@@ -117,7 +117,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     }
     let has_fault = |verdict: &Verdict, name| verdict.faults.iter().any(|f| f.name == Some(name));
     let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
-    let first_stored = calls.iter().filter(|call| stores_hit(call, 0)).count();
+    let first_stored = calls.iter().filter(|call| stores_first(call)).count();
     if first_stored > 0 && !has_fault(verdict, "direct-stored") {
         let found = format!(
             "the first hit of the path is stored in {first_stored} of {} calls: it comes directly from the \
@@ -138,7 +138,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
         return;
     }
     let second = calls.iter().filter(|call| call.hits().count() > 1);
-    let without = second.clone().filter(|call| !stores_hit(call, 1)).count();
+    let without = second.clone().filter(|call| lacks_second(call)).count();
     if without > 0 {
         let found = format!(
             "the second hit of the path is not stored in {without} of {} calls; the first that is stored comes \
@@ -155,13 +155,22 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     }
 }
 
-fn stores_hit(call: &Call, index: usize) -> bool {
-    // Where a later hit lies in the same place, it may be that one.
-    let Some(hit) = call.hits().nth(index) else { return false };
-    let near = |position: Vec3| hit.hit().abs_diff_eq(position, OFF_SURFACE);
-    let others =
-        call.hits().enumerate().filter(|(i, other)| *i != index && near(other.hit())).count();
-    call.stored.iter().filter(|stored| near(stored.position)).count() > others
+/// At the place of hit number `index`, from 0: how many photons are stored, and how many hits there have bounced.
+fn stored_and_due(call: &Call, index: usize) -> Option<(usize, usize)> {
+    let place = call.hits().nth(index)?.hit();
+    let near = |position: Vec3| place.abs_diff_eq(position, OFF_SURFACE);
+    let stored = call.stored.iter().filter(|stored| near(stored.position)).count();
+    // Without an offset, several hits lie in one place.
+    let due = call.hits().skip(1).filter(|hit| near(hit.hit())).count();
+    Some((stored, due))
+}
+
+fn stores_first(call: &Call) -> bool {
+    stored_and_due(call, 0).is_some_and(|(stored, due)| stored > due)
+}
+
+fn lacks_second(call: &Call) -> bool {
+    stored_and_due(call, 1).is_some_and(|(stored, due)| stored < due)
 }
 
 fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
