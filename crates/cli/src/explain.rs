@@ -1,10 +1,13 @@
 //! `photon-mapping explain`: the whole story of one photon.
 
+use std::io::Read as _;
+
 use clap::Args;
 
 use super::error::{CliError, print};
 use super::run_args::RunArgs;
 use compare::explain::{explain, first_that_stores};
+use variants::run::Run;
 
 /// The options of `explain`.
 #[derive(Debug, Args)]
@@ -50,7 +53,18 @@ pub fn run(arguments: &ExplainArgs) -> Result<u8, CliError> {
         let json = serde_json::to_string(&story).expect("a story has only plain values");
         print(&(json + "\n"))?;
     } else {
-        print(&story.text())?;
+        print(&(story.text() + &link(&run, photon)))?;
     }
     Ok(0)
+}
+
+/// Where the page of `explore` shows photon `photon`, if the page of this run is in its usual place.
+fn link(run: &Run, photon: u64) -> String {
+    let path = std::path::Path::new("out").join(super::explore::PAGE);
+    let mut start = [0; 2048];
+    let read = std::fs::File::open(&path).and_then(|mut page| page.read(&mut start)).unwrap_or(0);
+    if !explore::is_page_of(&String::from_utf8_lossy(&start[..read]), run) {
+        return String::new();
+    }
+    format!("\nin 3-D: {}{}\n", path.display(), explore::link(photon))
 }

@@ -5,6 +5,7 @@ mod compare;
 mod error;
 mod expect;
 mod explain;
+mod explore;
 mod grade;
 mod merge;
 mod output;
@@ -46,6 +47,8 @@ enum Command {
     Compare(Box<compare::CompareArgs>),
     /// Tell the whole story of one photon
     Explain(Box<explain::ExplainArgs>),
+    /// Write a page that shows the photons in 3-D and steps through the code on one of them
+    Explore(Box<explore::ExploreArgs>),
     /// Judge submissions of any generator: correct, or what was misread
     Grade(grade::GradeArgs),
     /// Compute how many hits are expected, without tracing a photon
@@ -82,6 +85,7 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Some(Command::Expect(arguments)) => expect::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
+        Some(Command::Explore(arguments)) => explore::run(&arguments),
         Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),

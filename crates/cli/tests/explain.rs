@@ -5,13 +5,13 @@ mod support;
 use std::path::Path;
 
 use compare::explain::{Ending, Story, explain, first_that_stores};
+use model::placement::Placement;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
-use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::point_light::PointLight;
 use support::{fails, json, run_line, stdout};
-use variants::trace::trace_piece;
+use variants::run::Run;
 
 fn records_of(list: &[PhotonRecord], photon: u64) -> Vec<&PhotonRecord> {
     list.iter().filter(|record| u64::from(record.photon) == photon).collect()
@@ -31,11 +31,11 @@ fn check(story: &Story, records: &[&PhotonRecord]) {
     }
 }
 
-fn check_run(renderer: &PhotonMappingRenderer, photons: std::ops::Range<u64>) {
-    let list = trace_piece(renderer, photons.clone());
+fn check_run(run: &Run, photons: std::ops::Range<u64>) {
+    let list = run.trace_piece(photons.clone());
     assert!(!list.is_empty());
     for photon in photons {
-        let story = explain(renderer, photon).expect("the photon is emitted");
+        let story = explain(run, photon).expect("the photon is emitted");
         check(&story, &records_of(&list, photon));
         let (taken, rejected) = story.emission.tries.split_last().expect("a try is taken");
         let length_squared = |[x, y, z]: [f32; 3]| x * x + y * y + z * z;
@@ -49,9 +49,9 @@ fn check_run(renderer: &PhotonMappingRenderer, photons: std::ops::Range<u64>) {
 
 #[test]
 fn the_story_has_the_numbers_of_the_list() {
-    let renderer = assignment8::create_renderer(assignment8::create_scene());
-    check_run(&renderer, 0..3000);
-    check_run(&renderer, 999_000..1_000_000);
+    let run = Run::handout(148, 1_000_000);
+    check_run(&run, 0..3000);
+    check_run(&run, 999_000..1_000_000);
 }
 
 #[test]
@@ -60,31 +60,30 @@ fn the_story_knows_its_light() {
     let second = PointLight { position: glam::Vec3::new(-0.5, -0.5, 1.9), color: glam::Vec3::ONE };
     let lights = vec![scene.lights()[0], second];
     let scene = Scene::new(scene.mesh_objects().to_vec(), scene.triangles().to_vec(), lights);
-    let mut renderer = assignment8::create_renderer(scene);
-    renderer.photon_count = 4000;
-    check_run(&renderer, 1500..2500);
-    assert_eq!(explain(&renderer, 1999).expect("emitted").emission.light, 0);
-    assert_eq!(explain(&renderer, 2000).expect("emitted").emission.light, 1);
-    assert!(explain(&renderer, 4000).is_none());
+    let run = Run::of_scene(scene, Placement::WORLD, 148, 4000);
+    check_run(&run, 1500..2500);
+    assert_eq!(explain(&run, 1999).expect("emitted").emission.light, 0);
+    assert_eq!(explain(&run, 2000).expect("emitted").emission.light, 1);
+    assert!(explain(&run, 4000).is_none());
 }
 
 #[test]
 fn the_story_ends_at_the_last_bounce_allowed() {
-    let mut renderer = assignment8::create_renderer(assignment8::create_scene());
-    renderer.max_photon_bounces = 1;
-    check_run(&renderer, 0..1000);
-    let ending = |photon| explain(&renderer, photon).expect("emitted");
+    let mut run = Run::handout(148, 1_000_000);
+    run.renderer.max_photon_bounces = 1;
+    check_run(&run, 0..1000);
+    let ending = |photon| explain(&run, photon).expect("emitted");
     let limited = (0..1000).map(ending).find(|story| story.ending == Ending::BounceLimit);
     assert_eq!(limited.expect("some photon would go on").hits.len(), 2);
 }
 
 #[test]
 fn the_first_photon_that_stores_is_found() {
-    let renderer = assignment8::create_renderer(assignment8::create_scene());
+    let run = Run::handout(148, 1_000_000);
     let mut found = 0;
     for at_least in 1..=4 {
-        found = first_that_stores(&renderer, 0, at_least).expect("there is one");
-        let list = trace_piece(&renderer, 0..found + 1);
+        found = first_that_stores(&run, 0, at_least).expect("there is one");
+        let list = run.trace_piece(0..found + 1);
         let stored = |photon| records_of(&list, photon).len();
         assert!(stored(found) >= at_least);
         assert!((0..found).all(|photon| stored(photon) < at_least));
@@ -101,9 +100,9 @@ fn the_first_photon_that_stores_is_found() {
 
 #[test]
 fn json_and_text_tell_the_same() {
-    let renderer = assignment8::create_renderer(assignment8::create_scene());
-    let photon = first_that_stores(&renderer, 0, 2).expect("there is one");
-    let story = explain(&renderer, photon).expect("emitted");
+    let run = Run::handout(148, 1_000_000);
+    let photon = first_that_stores(&run, 0, 2).expect("there is one");
+    let story = explain(&run, photon).expect("emitted");
     let photon = photon.to_string();
     let told = json(run_line("explain {} --json", &[Path::new(&photon)]).success());
     assert_eq!(told["seed"], 148);

@@ -1,16 +1,16 @@
-//! Our side of `benches/peers/run.sh`, which calls this program in turn with the peers.
+//! Our side of `peers/run.sh`, which calls this program in turn with the peers.
 
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use fast::trace::trace_list;
 use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::Triangle;
-use variants::trace::trace_list;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

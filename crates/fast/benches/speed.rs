@@ -7,25 +7,26 @@ use divan::{Bencher, black_box};
 use fast::lanes::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
 use fast::lanes::width::Width;
 use fast::lanes::{LaneTracer, picture};
+use fast::trace::{trace_list, trace_with_port};
 use fast::tree::Tree;
 use glam::Vec3;
-use photon_list::writer::{Format, ListHash, ListWriter};
-use photon_list::{reader, record};
+use photon_list::reader;
+use photon_list::writer::{Format, ListWriter};
 use photon_mapping::assignment8;
-use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::photon_list::{ListHash, PhotonRecord, ROW_BYTES};
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_map::PhotonMap;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
 };
+use photon_mapping::scene::Acceleration;
 use photon_mapping::scene::Material;
 use photon_mapping::scene::MeshObject;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::Triangle;
-use variants::trace::{trace_list, trace_piece};
 
 fn main() {
     divan::main();
@@ -61,7 +62,7 @@ fn trace_by_width(bencher: Bencher, width: Width) {
 #[divan::bench(sample_count = 20)]
 fn trace_by_specification(bencher: Bencher) {
     let renderer = renderer();
-    bencher.counter(ItemsCount::new(20_000_u64)).bench(|| trace_piece(&renderer, 0..20_000));
+    bencher.counter(ItemsCount::new(20_000_u64)).bench(|| trace_with_port(&renderer, 0..20_000));
 }
 
 #[divan::bench]
@@ -150,9 +151,9 @@ fn closest_in_lanes_by_triangles(bencher: Bencher, triangles: usize) {
 fn closest_in_a_tree_by_triangles(bencher: Bencher, triangles: usize) {
     let scene = boxes(triangles);
     let (tree, all) = (Tree::new(scene.triangles()), scattered_rays(&scene));
-    bencher.counter(ItemsCount::new(RAYS)).bench(|| {
-        all.iter().filter(|ray| tree.closest(ray, scene.triangles(), |_, _| true).is_some()).count()
-    });
+    bencher
+        .counter(ItemsCount::new(RAYS))
+        .bench(|| all.iter().filter(|ray| tree.closest(ray, scene.triangles()).is_some()).count());
 }
 
 #[divan::bench(sample_count = 20)]
@@ -189,7 +190,7 @@ fn take_the_picture_by_specification(bencher: Bencher) {
     let mut renderer = renderer();
     renderer.diffuse_map = PhotonMap::new(records().iter().map(|record| record.position));
     let camera = assignment8::create_camera(640, 480);
-    bencher.bench(|| image_writer::take_picture(&renderer, &camera, 640, 480, || ()));
+    bencher.bench(|| image_writer::take_picture(&renderer, &camera, 640, 480));
 }
 
 #[divan::bench(sample_count = 20)]
@@ -197,13 +198,13 @@ fn hash_a_list(bencher: Bencher) {
     let records = records();
     bencher.counter(ItemsCount::new(records.len())).bench(|| {
         let mut hash = ListHash::default();
-        hash.update_all(&records);
+        hash.update(&records);
         hash.hex()
     });
 }
 
 fn write(records: &[PhotonRecord], format: Format) -> Vec<u8> {
-    let bytes = Cursor::new(Vec::with_capacity(4 * record::ROW_BYTES * records.len()));
+    let bytes = Cursor::new(Vec::with_capacity(4 * ROW_BYTES * records.len()));
     let mut writer = ListWriter::new(bytes, format, Vec::new()).expect("memory takes everything");
     writer.write(records).expect("memory takes everything");
     writer.finish().expect("memory takes everything").into_inner()

@@ -1,7 +1,7 @@
 //! How good the grader is with lists: how often it calls correct ones incorrect, and which misreadings it
 //! finds and names. Prints the tables of `golden/grading.md`.
 //!
-//! `cargo run --release --example grading_table -- [--false-alarms N] [--seeds N] [--only MISREADING]`
+//! `cargo run --release -p photon-mapping-grading --example grading_table -- [--false-alarms N] [--seeds N] [--only MISREADING]`
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};

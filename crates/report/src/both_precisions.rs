@@ -172,7 +172,7 @@ mod tests {
     use crate::hits::surface_hits;
     use photon_mapping::assignment8;
     use photon_mapping::random::photon_random;
-    use photon_mapping::scene::LARGE_EPSILON;
+    use photon_mapping::scene::numerics::LARGE_EPSILON;
 
     #[test]
     fn single_precision_is_the_reference() {

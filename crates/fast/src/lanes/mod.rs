@@ -12,11 +12,11 @@
 //! the edge functions, the frame of a surface, the offset of a ray, the shares of the lights, and
 //! scalar tracing wherever a lane is in doubt. What must be written again is small, one formula a
 //! file, and each has a test that holds it to the scalar code by bits, exhaustively where there are
-//! few enough inputs. Over all of it, `tests/lanes.rs` traces random scenes, lights, seeds, ranges
-//! and bounces through both paths and every width, and compares records by bits; and the goldens of
-//! the default run pass through both. Who changes `trace_photon` sees these tests fail until the
-//! same change is made here; a reading or scene that the lanes do not know goes to `trace_photon`,
-//! which [`LaneTracer::new`] alone decides.
+//! few enough inputs. Over all of it, `crates/variants/tests/lanes.rs` traces random scenes, lights, seeds, ranges
+//! and bounces through both paths and every width, and compares records by bits; and the golden hash is
+//! computed both ways. Who changes `trace_photon` sees these tests fail until the
+//! same change is made here. Every run also traces a sample of its photons both ways
+//! ([`crate::trace`]).
 
 pub mod chacha;
 pub mod closest_hit;

@@ -1,0 +1,45 @@
+//! `explore` as a user runs it.
+
+mod support;
+
+use std::fs;
+
+use assert_cmd::Command;
+use support::{fails, folder, reference_csv, run_line, stdout};
+
+#[test]
+fn the_page_is_written_and_its_path_printed() {
+    let folder = folder();
+    let path = stdout(run_line("explore --photons 5000 --out {}", &[folder.path()]).success());
+    let page = fs::read_to_string(path.trim_end()).expect("the printed path is the page's");
+    assert!(page.starts_with("<!doctype html>") && page.contains("default-src 'none'"));
+    let list = reference_csv(folder.path(), 5000);
+    let line = "explore --photons 5000 --submission {} --out {}";
+    run_line(line, &[&list, folder.path()]).success();
+    let page = fs::read_to_string(folder.path().join("explore.html")).expect("written");
+    assert!(page.contains("photons.csv: identical"));
+}
+
+#[test]
+fn explain_prints_the_link_of_the_page_of_its_run() {
+    let folder = folder();
+    let run = |line: &str| {
+        let mut command = Command::cargo_bin("photon-mapping").expect("the program is built");
+        stdout(command.current_dir(folder.path()).args(line.split(' ')).assert().success())
+    };
+    let link = "out/explore.html#photon=73&bounce=0&step=emission";
+    assert!(!run("explain 73 --photons 5000").contains(link));
+    run("explore --photons 5000 --photon 73");
+    assert!(run("explain 73 --photons 5000").contains(link));
+    assert!(!run("explain 73 --photons 5000 --json").contains(link));
+    assert!(!run("explain 73 --photons 5000 --seed 1").contains(link));
+}
+
+#[test]
+fn bad_arguments_are_refused() {
+    fails("explore --photon 10 --photons 10", &[], &["--photon 10", "below 10"]);
+    fails("explore --misreading none-such", &[], &["none-such", "transposed-frame"]);
+    fails("explore --submission none.csv --photons 10", &[], &["none.csv"]);
+    let line = "explore --misreading no-offset --scene a.obj --light 0,0,1";
+    fails(line, &[], &["--misreading", "--scene"]);
+}

@@ -1,0 +1,388 @@
+// The box in 3-D: WebGL2 and an orbiting camera. It draws what it is given and knows nothing of photons' stories.
+
+const add = (a, b, by = 1) => [a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]];
+const scale = (a, by) => [a[0] * by, a[1] * by, a[2] * by];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const length = (a) => Math.hypot(...a);
+const unit = (a) => scale(a, 1 / (length(a) || 1));
+
+/** The names of all colours, in the order of the shader's palette; the style sheet has their values. */
+const COLORS = ["grey", "one", "two", "three", "four", "red", "missing", "extra", "moved", "path", "light", "ink", "t", "b", "n", "edge"];
+/** The shapes of dots, in the order of the shader's cases. */
+const SHAPES = { circle: 0, square: 1, diamond: 2, triangle: 3, ring: 4, cross: 5 };
+
+const SURFACE_VERTEX = `#version 300 es
+layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal; layout(location = 2) in vec3 color;
+uniform mat4 camera; out vec3 at, n, c;
+void main() { at = position; n = normal; c = color; gl_Position = camera * vec4(position, 1); }`;
+const SURFACE_FRAGMENT = `#version 300 es
+precision highp float;
+in vec3 at, n, c; uniform vec3 light, air; uniform float alpha, wash; out vec4 o;
+void main() {
+  float lit = .35 + .65 * max(dot(normalize(n), normalize(light - at)), 0.);
+  o = vec4(mix(c * lit, air, wash), alpha);
+}`;
+// A dot is as wide as the cube in which the handout looks for a photon, but never too small to see.
+const DOT_VERTEX = `#version 300 es
+layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
+uniform mat4 camera; uniform vec3 eye; uniform float pixels, least, most, size, dim; uniform vec3 palette[16];
+uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
+void main() {
+  uint state = look.y; shape = look.x >> 4;
+  vec3 nearer = mix(position, eye, .002);
+  gl_Position = camera * vec4(nearer, 1);
+  gl_Position.xy += shift * gl_Position.w;
+  wide = clamp(size * pixels / gl_Position.w, least, most);
+  if (state == 2u) wide = max(wide * 1.6, 4.);
+  gl_PointSize = wide;
+  if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
+  uint id = uint(gl_VertexID) + 1u;
+  c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255. : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
+}`;
+const DOT_FRAGMENT = `#version 300 es
+precision highp float; flat in vec4 c; flat in uint shape; flat in float wide; uniform bool pick; out vec4 o;
+void main() {
+  // Too small for a shape: a square, so that at least one pixel is drawn.
+  if (pick || wide < 3.) { o = c; return; }
+  vec2 p = abs(gl_PointCoord * 2. - 1.); float d = length(p);
+  bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88 : shape == 2u ? p.x + p.y < 1.
+    : shape == 3u ? p.x < gl_PointCoord.y * .95 : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
+  if (!inside) discard;
+  o = c;
+}`;
+// A line is a strip of two triangles, as wide as it is told in pixels.
+const LINE_VERTEX = `#version 300 es
+layout(location = 0) in vec3 a; layout(location = 1) in vec3 b; layout(location = 2) in vec4 color;
+layout(location = 3) in vec2 style; uniform mat4 camera; uniform vec3 eye; uniform vec2 size; out vec4 c; out float along;
+flat out float dash;
+void main() {
+  vec4 p = camera * vec4(mix(a, eye, .002), 1), q = camera * vec4(mix(b, eye, .002), 1);
+  float nearest = .01, cut = (nearest - p.w) / (q.w - p.w);
+  if (p.w < nearest) p = mix(p, q, cut); else if (q.w < nearest) q = mix(p, q, cut);
+  vec2 way = (q.xy / q.w - p.xy / p.w) * size; float far = max(length(way), 1e-3);
+  vec2 aside = vec2(-way.y, way.x) / far * style.x / size;
+  float end = float(gl_VertexID >> 1), side = float(gl_VertexID & 1) * 2. - 1.;
+  gl_Position = end < .5 ? p : q;
+  gl_Position.xy += aside * side * gl_Position.w;
+  along = end * far / 2.; dash = style.y; c = color;
+}`;
+const LINE_FRAGMENT = `#version 300 es
+precision highp float; in vec4 c; in float along; flat in float dash; out vec4 o;
+void main() { if (dash > 0. && fract(along / dash) > .55) discard; o = c; }`;
+
+class View {
+  /** A view on `canvas`; throws where there is no WebGL2. */
+  constructor(canvas, onDraw) {
+    this.canvas = canvas;
+    this.onDraw = onDraw;
+    const gl = this.gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
+    if (!gl) throw new Error("no WebGL2");
+    const program = (vertex, fragment) => {
+      const made = gl.createProgram();
+      for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+        const shader = gl.createShader(type);
+        gl.shaderSource(shader, source);
+        gl.compileShader(shader);
+        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader) ?? "lost");
+        gl.attachShader(made, shader);
+      }
+      gl.linkProgram(made);
+      if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made) ?? "lost");
+      return { made, at: (name) => gl.getUniformLocation(made, name) };
+    };
+    this.programs = {
+      surface: program(SURFACE_VERTEX, SURFACE_FRAGMENT), dot: program(DOT_VERTEX, DOT_FRAGMENT), line: program(LINE_VERTEX, LINE_FRAGMENT),
+    };
+    this.layers = {};
+    this.wallAlpha = 1;
+    this.dotScale = 1;
+    this.dim = 1;
+    this.part = this.pace = 1;
+    this.pickTarget = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.pickTarget);
+    for (const [point, format] of [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]]) {
+      const buffer = gl.createRenderbuffer();
+      gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+      gl.renderbufferStorage(gl.RENDERBUFFER, format, View.PICK, View.PICK);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, point, gl.RENDERBUFFER, buffer);
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  /** So many pixels a side are looked at around a click. */
+  static PICK = 25;
+
+  /** Makes the layer `name` of `columns`: arrays with their number of components; `step` 1 for one entry an instance. */
+  setLayer(name, count, columns, step = 0) {
+    const { gl } = this;
+    const layer = this.layers[name] ??= { vao: gl.createVertexArray(), buffers: [] };
+    layer.count = count;
+    gl.bindVertexArray(layer.vao);
+    columns.forEach(([array, components, stride = 0, offset = 0], index) => {
+      layer.buffers[index] ??= array ? { id: gl.createBuffer() } : layer.buffers[0];
+      const buffer = layer.buffers[index];
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer.id);
+      if (array && buffer.array !== array) gl.bufferData(gl.ARRAY_BUFFER, buffer.array = array, gl.DYNAMIC_DRAW);
+      gl.enableVertexAttribArray(index);
+      if (array instanceof Uint8Array) gl.vertexAttribIPointer(index, components, gl.UNSIGNED_BYTE, 0, 0);
+      else gl.vertexAttribPointer(index, components, gl.FLOAT, false, stride, offset);
+      gl.vertexAttribDivisor(index, step);
+    });
+    gl.bindVertexArray(null);
+    this.draw();
+  }
+
+  /** Shows dots at `positions`, each with a look (palette entry and shape; then 0 hidden, 1 plain, 2 lit) and the index of
+   * its face, or one beyond the last. They are drawn face by face, so that those on the far side can be left out. */
+  setDots(positions, looks, faceOf) {
+    const { gl } = this, starts = new Uint32Array(this.faces.length + 2);
+    for (let i = 0; i < faceOf.length; i++) if (looks[2 * i + 1]) starts[faceOf[i] + 1]++;
+    for (let face = 0; face <= this.faces.length; face++) starts[face + 1] += starts[face];
+    const next = starts.slice(), order = new Uint32Array(starts.at(-1));
+    for (let i = 0; i < faceOf.length; i++) if (looks[2 * i + 1]) order[next[faceOf[i]]++] = i;
+    this.setLayer("dots", order.length, [[positions, 3], [looks, 2]]);
+    this.layers.dots.starts = starts;
+    gl.bindVertexArray(this.layers.dots.vao);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.dotOrder ??= gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, order, gl.DYNAMIC_DRAW);
+    gl.bindVertexArray(null);
+  }
+
+  /** Draws the dots in sight. The first part of a face's dots is spread over all of it, since paths are in no order. */
+  drawFaces({ starts }, part) {
+    const { gl, eye } = this;
+    for (let face = 0; face <= this.faces.length; face++) {
+      const count = Math.ceil((starts[face + 1] - starts[face]) * part), { normal, at } = this.faces[face] ?? {};
+      const isTurnedAway = normal && this.wallAlpha === 1 && dot(normal, add(eye, at, -1)) < 0;
+      if (count && !isTurnedAway) gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 4 * starts[face]);
+    }
+  }
+
+  /** Draws larger dots over all others: of {at, color, shape}. */
+  setMarks(marks) {
+    const looks = marks.flatMap(({ color, shape }) => [COLORS.indexOf(color) | (SHAPES[shape] << 4), 1]);
+    this.setLayer("marks", marks.length, [[new Float32Array(marks.flatMap((mark) => mark.at)), 3], [new Uint8Array(looks), 2]]);
+  }
+
+  /** Draws lines of {a, b, color, width, dash, alpha}, lengths in pixels, as the layer `name`. */
+  setLines(name, lines) {
+    const numbers = lines.flatMap(({ a, b, color, width = 1.5, dash = 0, alpha = 1 }) =>
+      [...a, ...b, ...this.palette[COLORS.indexOf(color)], alpha, width, dash]);
+    this.setLayer(name, lines.length, [[new Float32Array(numbers), 3, 48, 0], [null, 3, 48, 12], [null, 4, 48, 24], [null, 2, 48, 40]], 1);
+  }
+
+  /** Sets the camera: what it turns around, from where (radians), how far, how high its picture is. */
+  look(camera) {
+    Object.assign(this.camera ??= {}, camera);
+    const limit = Math.PI / 2 - 0.001;
+    this.camera.pitch = Math.min(Math.max(this.camera.pitch, -limit), limit);
+    this.moved = performance.now();
+    this.draw();
+  }
+
+  /** While the camera moves, draws no more dots than are drawn in time; all of them as soon as it rests. */
+  keepPace() {
+    const now = performance.now(), since = now - (this.drawn ?? 0), isMoving = (this.moved ?? 0) > (this.drawn ?? 0) || now - (this.moved ?? 0) < 150;
+    if (isMoving && since < 1000) this.pace = Math.min(Math.max(this.pace * Math.min(Math.max(42 / since, 0.6), 1.15), 0.02), 1);
+    this.part = isMoving ? this.pace : 1;
+    this.drawn = now;
+    clearTimeout(this.rest);
+    if (this.part < 1) this.rest = setTimeout(() => this.draw(), 200);
+  }
+
+  /** The way the camera looks, and what is right and up to it. */
+  axes() {
+    const { yaw, pitch } = this.camera;
+    const forward = [Math.sin(yaw) * Math.cos(pitch), Math.cos(yaw) * Math.cos(pitch), Math.sin(pitch)];
+    const right = [Math.cos(yaw), -Math.sin(yaw), 0];
+    return { forward, right, up: cross(right, forward) };
+  }
+
+  get eye() { return add(this.camera.target, this.axes().forward, -this.camera.distance); }
+
+  /** Half the height of the picture at distance 1. A narrow view is made higher, so that it shows all of a 4:3 picture. */
+  get halfHeight() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return this.camera.halfHeight * Math.max(1, (4 / 3) / (width / height));
+  }
+
+  /** World to clip space, column by column. */
+  matrix() {
+    const { forward, right, up } = this.axes(), eye = this.eye;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const y = 1 / this.halfHeight, x = y * height / width;
+    const near = this.camera.distance * 0.02, far = this.camera.distance + 20 * this.camera.size;
+    const a = (far + near) / (far - near), b = -2 * far * near / (far - near);
+    const rows = [[scale(right, x), 0], [scale(up, y), 0], [scale(forward, a), b], [forward, 0]];
+    const row = rows.map(([v, more]) => [...v, more - dot(v, eye)]);
+    return new Float32Array([0, 1, 2, 3].flatMap((column) => row.map((r) => r[column])));
+  }
+
+  /** Where `point` appears, in CSS pixels; nothing if it lies behind. */
+  project(point) {
+    const m = this.projection ?? this.matrix();
+    const [x, y, , w] = [0, 1, 2, 3].map((r) => m[r] * point[0] + m[4 + r] * point[1] + m[8 + r] * point[2] + m[12 + r]);
+    return w > 0 ? [(x / w + 1) / 2 * this.canvas.clientWidth, (1 - y / w) / 2 * this.canvas.clientHeight] : null;
+  }
+
+  draw() {
+    this.waiting ??= requestAnimationFrame(() => { this.waiting = null; this.drawNow(); });
+  }
+
+  drawNow() {
+    const { gl, canvas, programs, layers } = this;
+    if (!this.camera || !this.palette || gl.isContextLost()) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((edge) => Math.max(1, Math.round(edge * ratio)));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    this.projection = this.matrix();
+    this.keepPace();
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(...this.air, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    if (this.wallAlpha === 1) this.drawSurfaces(this.projection);
+    this.drawDots("dots", this.projection, this.dim < 1);
+    this.drawLines("edges", ratio);
+    if (this.wallAlpha < 1) {
+      gl.depthMask(false);
+      this.drawSurfaces(this.projection);
+      gl.depthMask(true);
+    }
+    this.drawLines("moved", ratio);
+    // A path is seen through walls, but fainter.
+    gl.disable(gl.DEPTH_TEST);
+    this.drawLines("path", ratio);
+    this.drawDots("marks", this.projection, true);
+    this.frames = (this.frames ?? 0) + 1;
+    this.onDraw();
+  }
+
+  drawSurfaces(camera) {
+    const { gl, programs: { surface }, layers: { surfaces } } = this;
+    gl.useProgram(surface.made);
+    // A dot has one depth, a surface seen at a grazing angle has many within the same pixel.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(3, 2);
+    gl.uniformMatrix4fv(surface.at("camera"), false, camera);
+    gl.uniform3fv(surface.at("light"), this.light);
+    gl.uniform3fv(surface.at("air"), this.air);
+    gl.uniform1f(surface.at("wash"), this.wash);
+    gl.uniform1f(surface.at("alpha"), this.wallAlpha);
+    this.drawLayer(surfaces, this.wallAlpha < 1, () => gl.drawArrays(gl.TRIANGLES, 0, surfaces.count));
+  }
+
+  drawDots(name, camera, blend, pick = false) {
+    const { gl, programs: { dot: program }, canvas } = this, layer = this.layers[name];
+    if (!layer?.count) return;
+    const ratio = canvas.width / canvas.clientWidth, isMark = name === "marks";
+    gl.useProgram(program.made);
+    gl.uniformMatrix4fv(program.at("camera"), false, camera);
+    gl.uniform3fv(program.at("eye"), this.eye);
+    gl.uniform3fv(program.at("palette"), this.palette.flat());
+    gl.uniform1f(program.at("pixels"), canvas.height / 2 / this.halfHeight * (this.dotScale));
+    gl.uniform1f(program.at("size"), isMark ? 0 : this.dotSize);
+    gl.uniform1f(program.at("least"), (isMark ? 13 : pick ? 5 : Math.max(1.5, 1.2 * this.dotScale)) * ratio);
+    gl.uniform1f(program.at("most"), 30 * ratio);
+    gl.uniform1f(program.at("dim"), isMark ? 1 : this.dim);
+    gl.uniform1i(program.at("pick"), pick ? 1 : 0);
+    // A ray of the handout goes through the upper left corner of its pixel: half a pixel off the middle.
+    gl.uniform2f(program.at("shift"), pick ? 0 : 1 / canvas.width, pick ? 0 : -1 / canvas.height);
+    this.drawLayer(layer, blend && !pick, () => {
+      if (isMark) gl.drawArrays(gl.POINTS, 0, layer.count); else this.drawFaces(layer, pick ? 1 : this.part);
+    });
+  }
+
+  drawLines(name, ratio) {
+    const { gl, programs: { line }, canvas } = this, layer = this.layers[name];
+    if (!layer?.count) return;
+    gl.useProgram(line.made);
+    gl.uniformMatrix4fv(line.at("camera"), false, this.projection);
+    gl.uniform3fv(line.at("eye"), this.eye);
+    gl.uniform2f(line.at("size"), canvas.width / ratio, canvas.height / ratio);
+    this.drawLayer(layer, true, () => gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, layer.count));
+  }
+
+  drawLayer(layer, blend, drawArrays) {
+    const { gl } = this;
+    if (blend) gl.enable(gl.BLEND); else gl.disable(gl.BLEND);
+    gl.bindVertexArray(layer.vao);
+    drawArrays();
+    gl.bindVertexArray(null);
+  }
+
+  /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1: dots are drawn again there, each in a colour
+   * of its own. */
+  pick(x, y) {
+    const { gl, canvas } = this, side = View.PICK, ratio = canvas.width / canvas.clientWidth;
+    const wide = canvas.width / side, high = canvas.height / side;
+    const [cx, cy] = [2 * x * ratio / canvas.width - 1, 1 - 2 * y * ratio / canvas.height];
+    const whole = this.matrix(), crop = new Float32Array(whole);
+    for (let column = 0; column < 4; column++) {
+      crop[4 * column] = wide * (whole[4 * column] - cx * whole[4 * column + 3]);
+      crop[4 * column + 1] = high * (whole[4 * column + 1] - cy * whole[4 * column + 3]);
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.pickTarget);
+    gl.viewport(0, 0, side, side);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    if (this.wallAlpha === 1) {
+      gl.colorMask(false, false, false, false);
+      this.drawSurfaces(crop);
+      gl.colorMask(true, true, true, true);
+    }
+    this.drawDots("dots", crop, false, true);
+    const pixels = new Uint8Array(4 * side * side);
+    gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    let best = -1, nearest = Infinity;
+    for (let i = 0; i < side * side; i++) {
+      const id = pixels[4 * i] + 256 * (pixels[4 * i + 1] + 256 * (pixels[4 * i + 2] + 256 * pixels[4 * i + 3]));
+      const away = Math.hypot((i % side) - (side - 1) / 2, Math.floor(i / side) - (side - 1) / 2);
+      if (id > 0 && away < nearest) [best, nearest] = [id - 1, away];
+    }
+    return best;
+  }
+}
+
+/** Lets pointers, the wheel and the keyboard turn `view`; `onClick` is told of clicks, `onCentre` of double-clicks. */
+function orbit(view, onClick, onCentre) {
+  const { canvas } = view;
+  const pointers = new Map();
+  let moved = 0, last = 0;
+  const turn = (dx, dy) => view.look({ yaw: view.camera.yaw + dx, pitch: view.camera.pitch - dy });
+  const zoom = (by) => view.look({ distance: Math.min(Math.max(view.camera.distance * by, view.camera.size / 500), view.camera.size * 20) });
+  const spread = () => { const [a, b] = [...pointers.values()]; return Math.hypot(a.x - b.x, a.y - b.y); };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    if (pointers.size === 1) moved = 0;
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const pointer = pointers.get(event.pointerId);
+    if (!pointer) return;
+    const before = pointers.size === 2 ? spread() : 0;
+    const [dx, dy] = [event.offsetX - pointer.x, event.offsetY - pointer.y];
+    Object.assign(pointer, { x: event.offsetX, y: event.offsetY });
+    moved += Math.abs(dx) + Math.abs(dy);
+    if (pointers.size === 2) zoom(before / spread());
+    else if (event.shiftKey || event.buttons === 4) {
+      const { right, up } = view.axes(), by = 2 * view.halfHeight * view.camera.distance / canvas.clientHeight;
+      view.look({ target: add(add(view.camera.target, right, -dx * by), up, dy * by) });
+    } else turn(dx * 0.006, dy * 0.006);
+  });
+  const release = (event) => {
+    if (!pointers.delete(event.pointerId) || event.type !== "pointerup" || moved > 6 || pointers.size) return;
+    const isDouble = event.timeStamp - last < 350;
+    last = event.timeStamp;
+    (isDouble ? onCentre : onClick)(event.offsetX, event.offsetY);
+  };
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoom(Math.exp(event.deltaY * 0.0012)); }, { passive: false });
+  return { turn, zoom };
+}

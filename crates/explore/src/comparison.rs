@@ -1,0 +1,307 @@
+//! Another list, laid over the run's: a submission, or what a misreading stores.
+
+use std::collections::BTreeSet;
+
+use compare::alignment::{Pairing, align, with_bounces};
+use compare::explain::{Story, explain, vector};
+use compare::position_index::is_near;
+use compare::report::{Outcome, Report, compare, scene_size};
+use glam::Vec3;
+use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
+use serde_json::{Value, json};
+use variants::run::Run;
+use variants::section::Section;
+
+/// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
+/// default of `compare`.
+const TOLERANCE: f32 = 1e-4;
+/// A page shows at most so many records that only the other list has, evenly thinned.
+const MOST_EXTRA: usize = 500_000;
+
+/// A record closer than this to the hit before it, in world units, tells no direction.
+const NEAREST: f32 = 0.01;
+
+/// What the other list is.
+#[derive(Clone, Debug)]
+pub enum Other {
+    /// A submission, by the name of its file.
+    Submission(String),
+    /// A misreading of the table.
+    Misreading {
+        /// Its name.
+        id: String,
+        /// What it does.
+        title: String,
+        /// The section of the handout that it misreads.
+        section: Section,
+        /// What to look at in the code.
+        advice: String,
+    },
+}
+
+/// A list held against the run's.
+#[derive(Debug)]
+pub struct Comparison {
+    other: Other,
+    report: Report,
+    pairings: Vec<Pairing>,
+    reference: PhotonList,
+    submission: PhotonList,
+    tolerance: f32,
+    step: Option<Step>,
+}
+
+/// The step of a photon at which the lists part.
+#[derive(Debug)]
+struct Step {
+    photon: u64,
+    bounce: usize,
+    name: &'static str,
+    /// Label, the reference's value, the other list's.
+    sides: Vec<[String; 3]>,
+    /// Where the other list has its record, if it has one.
+    other: Option<[f32; 3]>,
+}
+
+/// The overlay as the page's columns.
+#[derive(Debug, Default)]
+pub(crate) struct Overlay {
+    /// For each stored photon of the page: 0 matched, 1 missing, 2 moved.
+    pub kinds: Vec<u8>,
+    /// For each record that moved: the stored photon that it should be, and where it is.
+    pub moved_index: Vec<u32>,
+    pub moved: Vec<[f32; 3]>,
+    /// The records that only the other list has, with the largest number for what it does not tell.
+    pub extra: Vec<[f32; 3]>,
+    pub extra_photon: Vec<u32>,
+    pub extra_bounce: Vec<u16>,
+    pub extra_surface: Vec<u16>,
+}
+
+impl Comparison {
+    /// Compares `submission` with `reference`, the list of `run`.
+    pub fn new(other: Other, reference: PhotonList, submission: PhotonList, run: &Run) -> Self {
+        let tolerance = TOLERANCE * run.placement.length_to_world(scene_size(run.scene()));
+        let report = compare(&reference, &submission, Some(run), tolerance, 0.0);
+        let reference = with_bounces(&reference).into_owned();
+        let submission = with_bounces(&submission).into_owned();
+        let pairings = align(&reference, &submission, tolerance);
+        let mut comparison =
+            Self { other, report, pairings, reference, submission, tolerance, step: None };
+        comparison.step = comparison.find_step(run);
+        comparison
+    }
+
+    /// The name of the other list.
+    pub fn name(&self) -> &str {
+        match &self.other {
+            Other::Submission(name) => name,
+            Other::Misreading { id, .. } => id,
+        }
+    }
+
+    /// The photon at which the lists part first.
+    pub fn photon(&self) -> Option<u64> {
+        self.step.as_ref().map(|step| step.photon)
+    }
+
+    /// The bounce, and the name of the step, at which they part.
+    pub fn step(&self) -> Option<(usize, &'static str)> {
+        self.step.as_ref().map(|step| (step.bounce, step.name))
+    }
+
+    /// The section to which the difference belongs: of a misreading it is known.
+    pub fn section(&self) -> Option<Section> {
+        match &self.other {
+            Other::Misreading { section, .. } => Some(*section),
+            Other::Submission(_) => self.report.first_divergence.as_ref()?.section,
+        }
+    }
+
+    /// The photons of the records that only the other list has.
+    pub(crate) fn photons_of_extra(&self) -> BTreeSet<u64> {
+        if !self.submission.columns.photon {
+            return BTreeSet::new();
+        }
+        let photons = self.pairings.iter().filter_map(|pairing| match *pairing {
+            Pairing::Extra(j) => Some(u64::from(self.submission.records[j].photon)),
+            _ => None,
+        });
+        photons.collect()
+    }
+
+    fn find_step(&self, run: &Run) -> Option<Step> {
+        let divergence = self.report.first_divergence.as_ref()?;
+        let photon = divergence.photon?;
+        let story = explain(run, photon)?;
+        let recorded = divergence.bounce.unwrap_or(1).min(story.hits.len());
+        // What went wrong happened at the hit before the record.
+        let before = recorded.saturating_sub(1);
+        let starts_elsewhere =
+            divergence.reason.as_ref().is_some_and(|reason| reason.contains("start"));
+        let (bounce, name) = match self.section()? {
+            Section::PhotonEmission => (0, "emission"),
+            Section::PhotonStorage => (recorded.min(story.hits.len().saturating_sub(1)), "stored"),
+            Section::PhotonScatteringAbsorption => (before, "roulette"),
+            Section::HemisphereSampling => (before, "hemisphere"),
+            Section::HemisphereRayTransformation if starts_elsewhere => (before, "ray"),
+            Section::HemisphereRayTransformation => (before, "frame"),
+        };
+        let mut sides = vec![[
+            "at this bounce".to_owned(),
+            divergence.reference.clone(),
+            divergence.submission.clone(),
+        ]];
+        let (reference, submission) = self.records_of(photon, recorded);
+        sides.extend(values(&story, recorded, reference, submission));
+        let other = submission.map(|record| record.position).filter(|place| place.is_finite());
+        Some(Step { photon, bounce, name, sides, other: other.map(|place| place.to_array()) })
+    }
+
+    /// The records of bounce `bounce` of `photon` in both lists.
+    fn records_of(
+        &self,
+        photon: u64,
+        bounce: usize,
+    ) -> (Option<&PhotonRecord>, Option<&PhotonRecord>) {
+        let is_it = |record: &PhotonRecord| {
+            u64::from(record.photon) == photon && usize::from(record.bounce) == bounce
+        };
+        let (reference, submission) = (&self.reference.records, &self.submission.records);
+        let pairing = self.pairings.iter().find(|pairing| match **pairing {
+            Pairing::Both(i, _) | Pairing::Missing(i) => is_it(&reference[i]),
+            Pairing::Extra(j) => self.submission.columns.photon && is_it(&submission[j]),
+        });
+        match pairing.copied() {
+            Some(Pairing::Both(i, j)) => (Some(&reference[i]), Some(&submission[j])),
+            Some(Pairing::Missing(i)) => (Some(&reference[i]), None),
+            Some(Pairing::Extra(j)) => (None, Some(&submission[j])),
+            None => (None, None),
+        }
+    }
+
+    /// The overlay; `places` has the place of each record of the reference among the page's photons.
+    pub(crate) fn overlay(&self, places: &[Option<u32>]) -> Overlay {
+        let shown = places.iter().flatten().count();
+        let mut overlay = Overlay { kinds: vec![0; shown], ..Overlay::default() };
+        let extra = || self.pairings.iter().filter(|pairing| matches!(pairing, Pairing::Extra(_)));
+        let every = extra().count() / MOST_EXTRA + 1;
+        let mut number_of_extra = 0;
+        for pairing in &self.pairings {
+            match *pairing {
+                Pairing::Missing(i) => {
+                    if let Some(place) = places[i] {
+                        overlay.kinds[place as usize] = 1;
+                    }
+                }
+                Pairing::Both(i, j) => {
+                    let (a, b) = (&self.reference.records[i], &self.submission.records[j]);
+                    let Some(place) = places[i] else { continue };
+                    if !is_near(a.position, b.position, self.tolerance) {
+                        overlay.kinds[place as usize] = 2;
+                        if b.position.is_finite() {
+                            overlay.moved_index.push(place);
+                            overlay.moved.push(b.position.to_array());
+                        }
+                    }
+                }
+                Pairing::Extra(j) => {
+                    number_of_extra += 1;
+                    let record = &self.submission.records[j];
+                    if number_of_extra % every == 0 && record.position.is_finite() {
+                        overlay.extra.push(record.position.to_array());
+                        overlay.extra_photon.push(record.photon);
+                        overlay.extra_bounce.push(record.bounce);
+                        overlay.extra_surface.push(record.surface);
+                    }
+                }
+            }
+        }
+        overlay
+    }
+
+    /// What the page shows above the box.
+    pub(crate) fn meta(&self) -> Value {
+        let Report { outcome, differences, first_divergence, .. } = &self.report;
+        let name = self.name();
+        let same = match outcome {
+            Outcome::Identical => Some("identical"),
+            Outcome::WithinTolerance => Some("the same within the tolerance"),
+            Outcome::Different => None,
+        };
+        let verdict = match (same, self.section()) {
+            (Some(same), _) => format!("{name}: {same}"),
+            (None, Some(section)) => format!("{name}: {}", section.title()),
+            (None, None) => format!("{name}: different"),
+        };
+        let divergence = first_divergence.as_ref();
+        let found = divergence.and_then(|divergence| divergence.reason.clone()).unwrap_or_default();
+        let doubt =
+            if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
+        let (kind, reason, advice) = match &self.other {
+            Other::Submission(_) if found.is_empty() => ("submission", String::new(), ""),
+            Other::Submission(_) => ("submission", sentence(&(found + doubt)), ""),
+            Other::Misreading { title, advice, .. } => {
+                ("misreading", sentence(title), advice.as_str())
+            }
+        };
+        json!({
+            "kind": kind,
+            "verdict": verdict,
+            "reason": reason,
+            "advice": advice,
+            "report": self.report.text(),
+            "counts": {
+                "matched": differences.matched, "missing": differences.missing,
+                "moved": differences.moved, "extra": differences.extra,
+            },
+            "photon": self.step.as_ref().map(|step| step.photon),
+            "bounce": self.step.as_ref().map(|step| step.bounce),
+            "step": self.step.as_ref().map(|step| step.name),
+            "other": self.step.as_ref().and_then(|step| step.other),
+            "sides": self.step.as_ref().map(|step| &step.sides),
+        })
+    }
+}
+
+/// Both lists' values of the record of bounce `bounce`, with labels.
+fn values(
+    story: &Story,
+    bounce: usize,
+    reference: Option<&PhotonRecord>,
+    submission: Option<&PhotonRecord>,
+) -> Vec<[String; 3]> {
+    let none = || "none".to_owned();
+    let tell = |value: Option<Vec3>| value.map_or_else(none, |value| vector(&value.to_array()));
+    let mut rows = Vec::new();
+    if reference.or(submission).is_some() {
+        let position = |record: &PhotonRecord| record.position;
+        let [a, b] = [reference, submission].map(|record| tell(record.map(position)));
+        rows.push(["position".to_owned(), a, b]);
+    }
+    let before = bounce.checked_sub(1).and_then(|before| story.hits.get(before));
+    // From a point as close as rounding, the way tells no direction.
+    let way = before.zip(submission).map(|(before, other)| other.position - before.point());
+    if let (Some(before), Some(way)) = (before, way.filter(|way| way.length() > NEAREST)) {
+        let way = way.normalize();
+        let normal = Vec3::from_array(before.normal);
+        let angle = |way: Vec3| format!("{:.1}°", way.angle_between(normal).to_degrees());
+        let expected = before.direction.map(Vec3::from_array);
+        rows.push(["direction".to_owned(), tell(expected), tell(Some(way))]);
+        rows.push(["angle to n".to_owned(), expected.map_or_else(none, angle), angle(way)]);
+    }
+    rows
+}
+
+/// `clause` with a capital and a full stop; symbols, as r and t, keep their case.
+fn sentence(clause: &str) -> String {
+    let mut letters = clause.chars();
+    let is_word = clause.chars().take(2).all(char::is_alphabetic);
+    let first: String = match letters.next() {
+        Some(first) if is_word => first.to_uppercase().collect(),
+        first => first.into_iter().collect(),
+    };
+    let stop = if clause.ends_with('.') { "" } else { "." };
+    first + letters.as_str() + stop
+}

@@ -1,0 +1,62 @@
+//! One page that shows the box in 3-D with all stored photons, and steps through the port's own
+//! source on one photon with its numbers.
+//!
+//! The page is one file: it needs no server and no network. It draws what the port computed: stories
+//! come from [`compare::explain`], lists and comparisons from their own crates. Only the
+//! random numbers are drawn again in the page, since they would double its size.
+
+pub mod comparison;
+pub mod misreading;
+mod pack;
+mod page;
+mod paths;
+mod source;
+
+use image::RgbImage;
+use oracle::summary::SurfaceSummary;
+use photon_mapping::photon_list::PhotonRecord;
+use variants::run::Run;
+
+use comparison::Comparison;
+
+/// What a page shows.
+#[derive(Debug)]
+pub struct Exploration<'a> {
+    /// The run of the reference.
+    pub run: &'a Run,
+    /// Whether it is a run of the handout's scene.
+    pub is_handout: bool,
+    /// Its whole list, path after path.
+    pub records: &'a [PhotonRecord],
+    /// The table of the summary: a line for every surface, and one for all together.
+    pub table: (&'a [SurfaceSummary], &'a SurfaceSummary),
+    /// The picture of the run, for browsers without WebGL.
+    pub picture: &'a RgbImage,
+    /// The photon on which the page opens; the first stored one if none is named.
+    pub photon: Option<u64>,
+    /// The list that is laid over the run's.
+    pub comparison: Option<&'a Comparison>,
+}
+
+/// The name of `run` in its page.
+fn name_of(run: &Run) -> String {
+    let part = run.part(0..0);
+    format!("{} {} {} {}", part.seed, part.emitted, part.max_bounces, part.scene)
+}
+
+/// Whether the page that starts with `text` is one of `run`.
+pub fn is_page_of(text: &str, run: &Run) -> bool {
+    text.contains(&format!("<meta name=\"run\" content=\"{}\">", name_of(run)))
+}
+
+/// The part of a page's address that opens photon `photon`.
+pub fn link(photon: u64) -> String {
+    format!("#photon={photon}&bounce=0&step=emission")
+}
+
+impl Exploration<'_> {
+    /// The page.
+    pub fn page(&self) -> String {
+        page::page(self)
+    }
+}

@@ -1,0 +1,331 @@
+//! A run as the page's columns: its paths, what each stored, and the numbers of each story.
+
+use std::collections::BTreeSet;
+
+use compare::explain::{Ending, Story, explain};
+use compare::report::scene_size;
+use glam::Vec3;
+use model::facets::facets;
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
+use photon_mapping::scene::Scene;
+use photon_mapping::scene::numerics::LARGE_EPSILON;
+use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::{Value, json};
+use variants::run::Run;
+
+use super::Exploration;
+use super::comparison::Comparison;
+use super::pack::Columns;
+
+/// A page shows all stored photons up to so many; of more, an evenly thinned sample of whole paths.
+const MOST_STORED: usize = 1_000_000;
+/// So many photons that only a submission stores get a story of the reference, evenly thinned.
+const MOST_STORIES_OF_OTHERS: usize = 20_000;
+
+/// What the page reads of a run.
+#[derive(Debug)]
+pub struct Paths {
+    /// The packed numbers.
+    pub columns: Columns,
+    /// The photon on which the page opens.
+    pub start: u64,
+    pub surfaces: Vec<Surface>,
+    pub faces: Vec<Face>,
+    pub lights: Vec<Value>,
+    pub camera: Value,
+    /// The scene's longest edge, in world units.
+    pub size: f32,
+    /// The edge of the cube in which the picture looks for a photon, in world units.
+    pub dot_size: f32,
+    /// How far along the normal each scattered ray starts, where that is the same for all.
+    pub offset: Option<f32>,
+}
+
+/// A mesh object.
+#[derive(Debug, Serialize)]
+pub struct Surface {
+    name: String,
+    /// P_r.
+    survival: f32,
+    diffuse: [f32; 3],
+}
+
+/// A face of a mesh object, with its frame, in world space.
+#[derive(Debug, Serialize)]
+pub struct Face {
+    surface: usize,
+    facet: usize,
+    normal: [f32; 3],
+    tangent: [f32; 3],
+    bitangent: [f32; 3],
+    /// The axis from which t was built.
+    axis: [f32; 3],
+    /// The length of n x axis.
+    bare: f32,
+    triangles: Vec<[f32; 9]>,
+}
+
+impl Paths {
+    /// The run of `exploration`.
+    pub fn new(exploration: &Exploration) -> Self {
+        let run = exploration.run;
+        let (scene, placement) = (run.scene(), &run.placement);
+        let faces = faces(run);
+        let thinned = thin(exploration.records, MOST_STORED);
+        let records = thinned.as_deref().unwrap_or(exploration.records);
+        let stories = stories(exploration, records);
+        let mut columns = Columns::default();
+        add_paths(&mut columns, &stories, &faces, run);
+        if let Some(comparison) = exploration.comparison {
+            comparison.add_columns(&mut columns, &stored_places(&stories, exploration.records));
+        }
+        let first = records.first().map(|record| u64::from(record.photon));
+        let size = placement.length_to_world(scene_size(scene));
+        Self {
+            columns,
+            start: exploration.photon.or(first).unwrap_or(0),
+            surfaces: surfaces(scene),
+            lights: scene
+                .lights()
+                .iter()
+                .map(|light| json!({ "position": placement.to_world(light.position).to_array() }))
+                .collect(),
+            camera: camera(exploration.is_handout, &faces, size),
+            faces,
+            size,
+            dot_size: placement.length_to_world(2.0 * PHOTON_DOT_RADIUS),
+            offset: exploration.is_handout.then_some(LARGE_EPSILON),
+        }
+    }
+}
+
+/// Whole paths of `records`, evenly spread, that are at most about `most` records; nothing if all are.
+fn thin(records: &[PhotonRecord], most: usize) -> Option<Vec<PhotonRecord>> {
+    if records.len() <= most {
+        return None;
+    }
+    let part = most as f64 / records.len() as f64;
+    let paths = records.chunk_by(|a, b| a.photon == b.photon);
+    let kept = paths.enumerate().filter(|(i, _)| {
+        let before = (*i as f64 * part) as usize;
+        ((*i + 1) as f64 * part) as usize > before
+    });
+    Some(kept.flat_map(|(_, path)| path.iter().copied()).collect())
+}
+
+/// The stories of all paths of `records`, and of the photons that the page names besides, in order.
+fn stories(exploration: &Exploration, records: &[PhotonRecord]) -> Vec<Story> {
+    let mut photons: Vec<u64> = records.iter().map(|record| u64::from(record.photon)).collect();
+    photons.dedup();
+    let mut others: BTreeSet<u64> = exploration.photon.into_iter().collect();
+    if let Some(comparison) = exploration.comparison {
+        others.extend(comparison.photon());
+        let extra = comparison.photons_of_extra();
+        let step = extra.len() / MOST_STORIES_OF_OTHERS + 1;
+        others.extend(extra.into_iter().step_by(step));
+    }
+    photons.extend(others);
+    photons.par_sort_unstable();
+    photons.dedup();
+    let stories = photons.par_iter().filter_map(|photon| explain(exploration.run, *photon));
+    stories.collect()
+}
+
+/// For each record of `records`, its place among the photons that `stories` store, or nothing.
+fn stored_places(stories: &[Story], records: &[PhotonRecord]) -> Vec<Option<u32>> {
+    let mut stored = stories
+        .iter()
+        .flat_map(|story| story.hits.iter().skip(1).map(|hit| (story.photon, hit.bounce)))
+        .zip(0_u32..)
+        .peekable();
+    let places = records.iter().map(|record| {
+        let key = (u64::from(record.photon), usize::from(record.bounce));
+        while stored.next_if(|(other, _)| *other < key).is_some() {}
+        stored.next_if(|(other, _)| *other == key).map(|(_, place)| place)
+    });
+    places.collect()
+}
+
+fn add_paths(columns: &mut Columns, stories: &[Story], faces: &[Face], run: &Run) {
+    let hits = || stories.iter().flat_map(|story| &story.hits);
+    let mut before = 0;
+    let steps: Vec<u32> = stories
+        .iter()
+        .map(|story| {
+            let step = story.photon - before;
+            before = story.photon;
+            u32::try_from(step).expect("a run has fewer than 2^32 photons")
+        })
+        .collect();
+    columns.words("path_photon", &steps);
+    let short = |count: usize| u16::try_from(count).expect("a scene has fewer than 2^16 of them");
+    let counts: Vec<u16> = stories.iter().map(|story| short(story.hits.len())).collect();
+    columns.shorts("path_hits", &counts);
+    let endings: Vec<u8> = stories
+        .iter()
+        .map(|story| match story.ending {
+            Ending::Absorbed => 0,
+            Ending::LeftTheScene => 1,
+            Ending::BounceLimit => 2,
+        })
+        .collect();
+    columns.bytes("path_ending", &endings);
+    let lights: Vec<u16> = stories.iter().map(|story| short(story.emission.light)).collect();
+    columns.shorts("path_light", &lights);
+    let face_of = |surface: usize, facet: usize| {
+        let key = (surface, facet);
+        let face = faces.binary_search_by_key(&key, |face| (face.surface, face.facet));
+        short(face.expect("a hit lies on a face of the scene"))
+    };
+    let of_hits: Vec<u16> = hits().map(|hit| face_of(hit.surface_index, hit.facet)).collect();
+    columns.shorts("hit_face", &of_hits);
+    columns.floats("hit_t", &hits().map(|hit| hit.t).collect::<Vec<_>>());
+    let stored: Vec<_> = hits().filter(|hit| hit.bounce > 0).map(|hit| hit.position).collect();
+    columns.vectors("stored", &stored);
+    let scattered: Vec<_> = hits().filter_map(|hit| hit.direction).collect();
+    columns.vectors("scattered", &scattered);
+    // What the page can compute to the same bits, by one line each, is left out.
+    if !stories.iter().all(emission_follows) {
+        let directions: Vec<_> = stories.iter().map(|story| story.emission.direction).collect();
+        columns.vectors("emission", &directions);
+    }
+    if !stories.iter().all(|story| direct_follows(story, run)) {
+        let direct = |story: &Story| story.hits.first().map_or([0.0; 3], |hit| hit.position);
+        columns.vectors("direct", &stories.iter().map(direct).collect::<Vec<_>>());
+    }
+}
+
+/// Whether the direction in which a photon leaves is its last try, normalised.
+fn emission_follows(story: &Story) -> bool {
+    let last = story.emission.tries.last().copied().unwrap_or_default();
+    let [x, y, z] = last;
+    let by = 1.0 / (x * x + y * y + z * z).sqrt();
+    last.map(|component| (component * by).to_bits()) == story.emission.direction.map(f32::to_bits)
+}
+
+/// Whether a photon's first hit is where its ray is after the distance t.
+fn direct_follows(story: &Story, run: &Run) -> bool {
+    let light = run.placement.to_world(run.scene().lights()[story.emission.light].position);
+    let direction = Vec3::from_array(story.emission.direction);
+    story.hits.first().is_none_or(|hit| {
+        let point = light + hit.t * direction;
+        point.to_array().map(f32::to_bits) == hit.position.map(f32::to_bits)
+    })
+}
+
+fn surfaces(scene: &Scene) -> Vec<Surface> {
+    let surface = |name: &str, diffuse: Vec3| Surface {
+        name: name.to_owned(),
+        survival: diffuse.max_element(),
+        diffuse: diffuse.to_array(),
+    };
+    let objects = scene.mesh_objects().iter();
+    objects.map(|object| surface(&object.name, object.material.base_diffuse_reflection())).collect()
+}
+
+/// The faces in order of surface, then facet.
+fn faces(run: &Run) -> Vec<Face> {
+    let mut faces: Vec<Face> = facets(run.scene())
+        .map(|group| {
+            let normal = group[0].normal;
+            let frame = run.reading.tangent_frame(normal);
+            // t is at a right angle to the axis from which it was built.
+            let is_built_from = |axis: Vec3| {
+                let tangent = normal.cross(axis);
+                tangent.length() > 0.0
+                    && tangent.normalize().distance(frame.x_axis.normalize()) < 1e-3
+            };
+            let axis = [Vec3::X, Vec3::Y].into_iter().find(|axis| is_built_from(*axis));
+            let axis = axis.unwrap_or(run.reading.fallback_axis);
+            Face {
+                surface: group[0].parent_mesh_object,
+                facet: group[0].facet,
+                normal: normal.to_array(),
+                tangent: frame.x_axis.to_array(),
+                bitangent: frame.y_axis.to_array(),
+                axis: axis.to_array(),
+                bare: normal.cross(axis).length(),
+                triangles: group
+                    .iter()
+                    .map(|triangle| {
+                        let corners =
+                            triangle.vertices.map(|corner| run.placement.to_world(corner));
+                        let mut numbers = [0.0; 9];
+                        for (to, corner) in numbers.chunks_exact_mut(3).zip(corners) {
+                            to.copy_from_slice(&corner.to_array());
+                        }
+                        numbers
+                    })
+                    .collect(),
+            }
+        })
+        .collect();
+    faces.sort_by_key(|face| (face.surface, face.facet));
+    faces
+}
+
+/// The handout's camera, or one that sees all of another scene: what it turns around, how far from
+/// it, in what direction (radians), and half the height of its picture at distance 1.
+fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
+    let camera = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
+    let half_height = camera.half_height;
+    if is_handout {
+        // It turns around the point before it that is nearest to the middle of the box.
+        let distance = -camera.position.dot(camera.forward);
+        let target = (camera.position + distance * camera.forward).to_array();
+        return json!({
+            "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0, "halfHeight": half_height
+        });
+    }
+    let corners = || {
+        let triangles = faces.iter().flat_map(|face| &face.triangles);
+        triangles.flat_map(|numbers| numbers.chunks_exact(3).map(Vec3::from_slice))
+    };
+    let low = corners().fold(Vec3::INFINITY, Vec3::min);
+    let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let target = ((low + high) / 2.0).to_array();
+    json!({ "target": target, "distance": 2.8 * size, "yaw": 0.5, "pitch": -0.35, "halfHeight": half_height })
+}
+
+impl Comparison {
+    /// Adds what the page reads of the overlay; `places` has the place of each record of the
+    /// reference among the stored photons of the page.
+    fn add_columns(&self, columns: &mut Columns, places: &[Option<u32>]) {
+        let overlay = self.overlay(places);
+        columns.bytes("kind", &overlay.kinds);
+        columns.words("moved_index", &overlay.moved_index);
+        columns.vectors("moved", &overlay.moved);
+        columns.vectors("extra", &overlay.extra);
+        columns.words("extra_photon", &overlay.extra_photon);
+        columns.shorts("extra_bounce", &overlay.extra_bounce);
+        columns.shorts("extra_surface", &overlay.extra_surface);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_whole_paths_evenly() {
+        let record = |photon, bounce| PhotonRecord {
+            position: Vec3::ZERO,
+            intensity: Vec3::ZERO,
+            to_light: Vec3::ZERO,
+            photon,
+            bounce,
+            surface: 0,
+        };
+        let records: Vec<_> =
+            (0..1000).flat_map(|photon| [record(photon, 1), record(photon, 2)]).collect();
+        assert!(thin(&records, 2000).is_none());
+        let kept = thin(&records, 500).expect("there are more");
+        assert!((490..=510).contains(&kept.len()), "{}", kept.len());
+        assert!(kept.chunks_exact(2).all(|path| path[0].photon == path[1].photon));
+        let first_half = kept.iter().filter(|record| record.photon < 500).count();
+        assert!((240..=260).contains(&first_half), "{first_half}");
+    }
+}

@@ -1,0 +1,286 @@
+//! Headless Chromium, driven over its DevTools protocol: JSON messages on a pair of pipes.
+//!
+//! The crates that do this bring 80 others and a minute of compilation, most of it for a Rust type
+//! for each of the protocol's messages. These tests need nine of them, and `serde_json` is here.
+#![allow(dead_code, reason = "no test uses all of it")]
+
+use std::cell::{Cell, RefCell};
+use std::io::{BufRead, BufReader, Cursor, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use image::RgbImage;
+use serde_json::{Value, json};
+
+/// No answer takes longer, even on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A page in a browser of its own. The browser ends when this is dropped.
+pub struct Browser {
+    child: Child,
+    to: RefCell<ChildStdin>,
+    from: Receiver<Value>,
+    next_id: Cell<u64>,
+    session: String,
+    /// What the page logged, and what it asked the network for.
+    events: RefCell<Vec<Value>>,
+    _profile: tempfile::TempDir,
+}
+
+/// A browser, with WebGL in software or with none. Nothing, with a message, where there is no
+/// Chromium; where `PHOTON_MAPPING_CHROMIUM` is set there must be one.
+pub fn launch(with_webgl: bool) -> Option<Browser> {
+    let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
+    let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
+    match found {
+        Ok(_) => Some(Browser::start(with_webgl)),
+        Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
+        Err(error) => {
+            eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
+            None
+        }
+    }
+}
+
+impl Browser {
+    fn start(with_webgl: bool) -> Self {
+        let profile = tempfile::tempdir().expect("a folder can be made");
+        let gl: &[&str] = if with_webgl {
+            &["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        } else {
+            &["--disable-3d-apis"]
+        };
+        // The protocol's pipes are the descriptors 3 and 4.
+        let mut child = Command::new("sh")
+            .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>&1", "sh", "chromium"])
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"])
+            .args(["--no-first-run", "--disable-background-networking"])
+            .args(["--disable-component-update", "--disable-sync", "--remote-debugging-pipe"])
+            .args(gl)
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg("about:blank")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("a shell can be run");
+        let to = child.stdin.take().expect("piped");
+        let mut messages = BufReader::new(child.stdout.take().expect("piped"));
+        let (sender, from) = channel();
+        std::thread::spawn(move || {
+            let mut message = Vec::new();
+            while messages.read_until(0, &mut message).is_ok_and(|length| length > 0) {
+                message.pop();
+                let value = serde_json::from_slice(&message).expect("messages are JSON");
+                message.clear();
+                if sender.send(value).is_err() {
+                    break;
+                }
+            }
+        });
+        let mut browser = Self {
+            child,
+            to: RefCell::new(to),
+            from,
+            next_id: Cell::new(1),
+            session: String::new(),
+            events: RefCell::default(),
+            _profile: profile,
+        };
+        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
+        let attach = json!({ "targetId": target["targetId"], "flatten": true });
+        let attached = browser.call("Target.attachToTarget", attach);
+        browser.session = attached["sessionId"].as_str().expect("a name").to_owned();
+        for domain in ["Page", "Runtime", "Log", "Network"] {
+            browser.call(&format!("{domain}.enable"), json!({}));
+        }
+        browser.size(1280, 800);
+        browser
+    }
+
+    /// Calls a method of the protocol and gives its result.
+    pub fn call(&self, method: &str, parameters: Value) -> Value {
+        let id = self.next_id.replace(self.next_id.get() + 1);
+        let mut message = json!({ "id": id, "method": method, "params": parameters });
+        if !self.session.is_empty() {
+            message["sessionId"] = json!(self.session);
+        }
+        let mut to = self.to.borrow_mut();
+        write!(to, "{message}\0").and_then(|()| to.flush()).expect("the browser is running");
+        loop {
+            let answer = self.from.recv_timeout(PATIENCE);
+            let answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
+            if answer["id"] == id {
+                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+                return answer["result"].clone();
+            }
+            self.events.borrow_mut().push(answer);
+        }
+    }
+
+    /// The value of the JavaScript `expression`, awaited.
+    pub fn run(&self, expression: &str) -> Value {
+        let parameters =
+            json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
+        let result = self.call("Runtime.evaluate", parameters);
+        assert!(result["exceptionDetails"].is_null(), "{expression}: {result}");
+        result["result"]["value"].clone()
+    }
+
+    /// [`Self::run`], where the value is text.
+    pub fn text(&self, expression: &str) -> String {
+        let value = self.run(expression);
+        value.as_str().unwrap_or_else(|| panic!("{expression}: {value}")).to_owned()
+    }
+
+    /// Opens `page` at `link`, and waits until it is ready and drawn.
+    pub fn open(&self, page: &Path, link: &str) {
+        // Another link alone would not load the page again.
+        self.call("Page.navigate", json!({ "url": "about:blank" }));
+        let url = format!("file://{}{link}", page.display());
+        self.call("Page.navigate", json!({ "url": url }));
+        self.wait_for("document.body?.dataset.ready === 'yes'");
+        self.settle();
+    }
+
+    /// Waits until `condition` holds.
+    pub fn wait_for(&self, condition: &str) {
+        let start = Instant::now();
+        while self.run(condition) != json!(true) {
+            assert!(start.elapsed() < PATIENCE, "waited for {condition}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Waits until what was asked for is drawn and no camera flies.
+    pub fn settle(&self) {
+        let frame =
+            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
+        self.run(frame);
+        // While the camera moves, a slow machine draws only some of the dots.
+        self.wait_for("!window.page?.view || (page.view.part === 1 && performance.now() - (page.view.moved ?? 0) > 300)");
+        self.run(frame);
+    }
+
+    /// Makes the window `width` x `height` CSS pixels.
+    pub fn size(&self, width: u32, height: u32) {
+        let is_phone = width < 500;
+        let size = json!({
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone,
+        });
+        self.call("Emulation.setDeviceMetricsOverride", size);
+        self.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": is_phone }));
+    }
+
+    /// Sets the media feature `name` to `value`.
+    pub fn media(&self, name: &str, value: &str) {
+        let features = json!({ "features": [{ "name": name, "value": value }] });
+        self.call("Emulation.setEmulatedMedia", features);
+    }
+
+    /// Clicks at the CSS pixel (`x`, `y`) of the window.
+    pub fn click(&self, x: f64, y: f64) {
+        for kind in ["mouseMoved", "mousePressed", "mouseReleased"] {
+            let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
+            self.call("Input.dispatchMouseEvent", event);
+        }
+    }
+
+    /// Drags from one CSS pixel of the window to another.
+    pub fn drag(&self, from: [f64; 2], to: [f64; 2]) {
+        for (kind, [x, y]) in [("mousePressed", from), ("mouseMoved", to), ("mouseReleased", to)] {
+            let event = json!({
+                "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1,
+            });
+            self.call("Input.dispatchMouseEvent", event);
+        }
+    }
+
+    /// Turns the wheel by `delta` pixels at the CSS pixel (`x`, `y`) of the window.
+    pub fn wheel(&self, x: f64, y: f64, delta: f64) {
+        let event = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": delta });
+        self.call("Input.dispatchMouseEvent", event);
+    }
+
+    /// Clicks the middle of the element `selector`.
+    pub fn click_on(&self, selector: &str) {
+        let place = self.run(&format!(
+            "(() => {{ const node = document.querySelector({selector:?}); node.scrollIntoView({{ block: 'center' }}); \
+             const r = node.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; }})()"
+        ));
+        self.click(place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"));
+    }
+
+    /// Touches the CSS pixel (`x`, `y`) of the window.
+    pub fn tap(&self, x: f64, y: f64) {
+        let points = json!([{ "x": x, "y": y }]);
+        self.call(
+            "Input.dispatchTouchEvent",
+            json!({ "type": "touchStart", "touchPoints": points }),
+        );
+        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    }
+
+    /// Presses the key `key`, as `ArrowRight` or `n`.
+    pub fn press(&self, key: &str) {
+        let code = match key {
+            "ArrowLeft" => 37,
+            "ArrowUp" => 38,
+            "ArrowRight" => 39,
+            "ArrowDown" => 40,
+            "Enter" => 13,
+            "Tab" => 9,
+            _ => key.to_uppercase().bytes().next().map_or(0, u32::from),
+        };
+        let mut event = json!({ "type": "keyDown", "key": key, "windowsVirtualKeyCode": code });
+        match key {
+            "Enter" => event["text"] = json!("\r"),
+            _ if key.len() == 1 => event["text"] = json!(key),
+            _ => {}
+        }
+        self.call("Input.dispatchKeyEvent", event);
+        let event = json!({ "type": "keyUp", "key": key, "windowsVirtualKeyCode": code });
+        self.call("Input.dispatchKeyEvent", event);
+    }
+
+    /// A picture of the window.
+    pub fn screenshot(&self) -> RgbImage {
+        let shot = self.call("Page.captureScreenshot", json!({ "format": "png" }));
+        let png = shot["data"].as_str().expect("base64");
+        let png = base64::Engine::decode(&base64::engine::general_purpose::STANDARD, png);
+        let reader = Cursor::new(png.expect("base64"));
+        let picture = image::load(reader, image::ImageFormat::Png).expect("a PNG picture");
+        picture.into_rgb8()
+    }
+
+    /// Checks that the page has caused no error, and asked for nothing but itself.
+    pub fn has_been_quiet(&self) {
+        self.run("0");
+        for event in self.events.borrow().iter() {
+            let (method, parameters) = (event["method"].as_str(), &event["params"]);
+            match method {
+                Some("Runtime.exceptionThrown") => panic!("{parameters}"),
+                Some("Runtime.consoleAPICalled") if parameters["type"] == "error" => {
+                    panic!("{parameters}")
+                }
+                Some("Log.entryAdded") if parameters["entry"]["level"] == "error" => {
+                    panic!("{parameters}")
+                }
+                Some("Network.requestWillBeSent") => {
+                    let url = parameters["request"]["url"].as_str().expect("an address");
+                    let of_itself = ["file:", "data:", "about:"];
+                    assert!(of_itself.iter().any(|kind| url.starts_with(kind)), "{url}");
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

@@ -1,0 +1,141 @@
+//! Other lists laid over the run's: misreadings, submissions, and names that mean harm.
+
+mod browser;
+mod support;
+
+use browser::launch;
+use compare::explain::explain;
+use explore::comparison::{Comparison, Other};
+use explore::misreading;
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
+use serde_json::json;
+use support::{Traced, float, write_page};
+use variants::run::Run;
+use variants::section::Section;
+
+const PHOTONS: u64 = 60_000;
+
+fn traced(misreading: &str) -> Traced {
+    let mut run = Run::handout(assignment8::SEED, PHOTONS);
+    if misreading::needs_few_bounces(misreading) {
+        run.renderer.max_photon_bounces = misreading::FEW_BOUNCES;
+    }
+    Traced::of(run)
+}
+
+#[test]
+fn every_misreading_opens_where_it_differs() {
+    let Some(browser) = launch(true) else { return };
+    let names = misreading::names();
+    assert_eq!(names.len(), 15);
+    for name in names {
+        let reference = traced(name);
+        let (other, records) = misreading::trace(name, &reference.run).expect("it is in the table");
+        let Other::Misreading { section, .. } = other else { panic!("{name} is a misreading") };
+        let title = section.title();
+        let list = PhotonList { records: records.clone(), ..reference.list() };
+        let comparison = Comparison::new(other, reference.list(), list, &reference.run);
+        let page = write_page(name, &reference.exploration(Some(&comparison)).page());
+        browser.open(&page, "");
+        let text = |id: &str| browser.text(&format!("document.getElementById('{id}').textContent"));
+        assert_eq!(text("verdict"), format!("{name}: {title}"));
+        assert_eq!(text("step-title"), title, "{name}");
+        assert_eq!(browser.run("document.getElementById('sides').hidden"), false, "{name}");
+        // The photon that is open stores something else in the two lists, and the step is the one that
+        // makes the first difference.
+        let photon = float(&browser.run("page.photon")) as u32;
+        let of = |list: &[PhotonRecord]| -> Vec<_> {
+            let of_photon = list.iter().filter(|record| record.photon == photon);
+            of_photon.map(|record| record.position).collect()
+        };
+        let (ours, theirs) = (of(&reference.records), of(&records));
+        let pairs = ours.iter().zip(&theirs);
+        let same = pairs.take_while(|(a, b)| a.distance(**b) < 1e-3).count();
+        assert!(same < ours.len().max(theirs.len()), "{name}: photon {photon}");
+        let expected = match section {
+            Section::PhotonEmission => 0,
+            Section::PhotonStorage if name == "direct-stored" => 0,
+            Section::PhotonStorage => same + 1,
+            _ => same,
+        };
+        assert_eq!(browser.run("page.steps[page.at].bounce"), expected, "{name}: photon {photon}");
+        // What is counted is what is drawn.
+        let kinds = browser
+            .run("[0, 1, 2, 3].map((kind) => page.kinds.reduce((n, k) => n + (k === kind), 0))");
+        let counts = browser.run("page.run.comparison.counts");
+        assert_eq!(kinds[0], counts["matched"], "{name}");
+        assert_eq!(kinds[1], counts["missing"], "{name}");
+        // A list whose records tell their photon opens it from there, as a whole of the story.
+        let story = explain(&reference.run, photon.into()).expect("emitted");
+        let chips = browser.run("document.querySelectorAll('#path button').length");
+        assert!(float(&chips) >= story.hits.len() as f64, "{name}");
+    }
+    browser.has_been_quiet();
+}
+
+#[test]
+fn a_submission_shows_where_it_parts() {
+    let Some(browser) = launch(true) else { return };
+    let reference = traced("");
+    // One photon moved, one missing, one extra, in a list that tells only positions.
+    let mut list = reference.list();
+    list.columns =
+        Columns { intensity: false, to_light: false, photon: false, bounce: false, surface: false };
+    list.records[10].position.x += 0.2;
+    list.records.remove(500);
+    let mut extra = list.records[900];
+    extra.position.z += 0.5;
+    list.records.insert(900, extra);
+    let other = Other::Submission("mine.csv".to_owned());
+    let comparison = Comparison::new(other, reference.list(), list, &reference.run);
+    let page = write_page("positions", &reference.exploration(Some(&comparison)).page());
+    browser.open(&page, "");
+    let counts = browser.run("page.run.comparison.counts");
+    let all = reference.records.len() as u64;
+    assert_eq!(counts, json!({ "matched": all - 2, "missing": 1, "moved": 1, "extra": 1 }));
+    assert_eq!(float(&browser.run("page.photon")) as u32, reference.records[10].photon);
+    assert!(browser.text("document.getElementById('sides').textContent").contains("submission"));
+    // The line leads from where the photon is to where it should be.
+    assert_eq!(browser.run("page.view.layers.moved.count"), 1);
+    // Elsewhere, and back by the button.
+    browser.press("n");
+    browser.click_on("#divergence");
+    browser.wait_for(&format!("page.photon === {}", reference.records[10].photon));
+    browser.has_been_quiet();
+
+    let other = Other::Submission("same.csv".to_owned());
+    let same = Comparison::new(other, reference.list(), reference.list(), &reference.run);
+    let page = write_page("same", &reference.exploration(Some(&same)).page());
+    browser.open(&page, "");
+    assert_eq!(
+        browser.text("document.getElementById('verdict').textContent"),
+        "same.csv: identical"
+    );
+    assert_eq!(browser.run("document.getElementById('divergence').hidden"), true);
+    browser.has_been_quiet();
+}
+
+#[test]
+fn hostile_names_stay_names() {
+    let Some(browser) = launch(true) else { return };
+    let mut reference = traced("");
+    let name = "</script><script>window.hurt = 1</script><img src=x onerror='hurt=1'>{data}{script}\u{2028}.csv";
+    reference.table.0[0].name = name.to_owned();
+    let mut list = reference.list();
+    list.records[10].position.x += 0.2;
+    let other = Other::Submission(name.to_owned());
+    let comparison = Comparison::new(other, reference.list(), list, &reference.run);
+    let page = write_page("hostile", &reference.exploration(Some(&comparison)).page());
+    browser.open(&page, "");
+    assert_eq!(browser.run("window.hurt"), json!(null));
+    assert!(browser.text("document.title").starts_with(name));
+    assert!(browser.text("document.getElementById('verdict').textContent").starts_with(name));
+    assert_eq!(browser.text("document.querySelector('#table tbody th').textContent"), name);
+    assert_eq!(browser.run("document.querySelectorAll('script').length"), 3);
+    // Should anything get through all the same, the policy keeps it from running.
+    browser.run("document.body.append(Object.assign(document.createElement('script'), { textContent: 'window.hurt = 2' }))");
+    assert_eq!(browser.run("window.hurt"), json!(null));
+}

@@ -1,0 +1,87 @@
+//! A run of the reference with all that a page of it needs.
+#![allow(dead_code, reason = "no test uses all of it")]
+
+use std::path::{Path, PathBuf};
+
+use explore::Exploration;
+use explore::comparison::Comparison;
+use fast::lanes::picture::take_picture;
+use fast::lanes::width::Width;
+use image::RgbImage;
+use oracle::summary::{SurfaceSummary, Tally};
+use oracle::table::ExpectedTable;
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
+use photon_mapping::assignment8;
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::photon_map::PhotonMap;
+use serde_json::Value;
+use variants::run::Run;
+
+/// A run of the handout with its list, table and picture.
+pub struct Traced {
+    pub run: Run,
+    pub records: Vec<PhotonRecord>,
+    pub table: (Vec<SurfaceSummary>, SurfaceSummary),
+    pub picture: RgbImage,
+}
+
+impl Traced {
+    /// The run with `photons` emitted.
+    pub fn new(photons: u64) -> Self {
+        Self::of(Run::handout(assignment8::SEED, photons))
+    }
+
+    /// Traces `run`.
+    pub fn of(mut run: Run) -> Self {
+        let emitted = run.renderer.emitted();
+        let mut records = Vec::new();
+        let traced: Result<_, std::convert::Infallible> = run.trace_list(0..emitted, |piece, _| {
+            records.extend_from_slice(piece);
+            Ok(())
+        });
+        let Ok(_) = traced;
+        let names = run.scene().mesh_objects().iter().map(|object| object.name.clone());
+        let mut tally = Tally::new(names);
+        records.iter().for_each(|record| tally.add(record));
+        let max_bounces = run.renderer.max_photon_bounces as usize;
+        let table = tally.surfaces(emitted, max_bounces, Some(&ExpectedTable::of_assignment8()));
+        let positions = records.iter().map(|record| record.position);
+        run.renderer.diffuse_map = PhotonMap::new(positions);
+        let camera = assignment8::create_camera(640, 480);
+        let picture = take_picture(&run.renderer, Width::widest(), &camera, 640, 480, || ());
+        Self { run, records, table, picture: picture.picture }
+    }
+
+    /// Its list.
+    pub fn list(&self) -> PhotonList {
+        let columns =
+            Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
+        PhotonList { columns, records: self.records.clone() }
+    }
+
+    /// What its page shows, with `comparison` laid over it.
+    pub fn exploration<'a>(&'a self, comparison: Option<&'a Comparison>) -> Exploration<'a> {
+        Exploration {
+            run: &self.run,
+            is_handout: true,
+            records: &self.records,
+            table: (&self.table.0, &self.table.1),
+            picture: &self.picture,
+            photon: None,
+            comparison,
+        }
+    }
+}
+
+/// Writes the page `name` to the folder of the tests.
+pub fn write_page(name: &str, page: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("explore-{name}.html"));
+    std::fs::write(&path, page).expect("the folder of the tests can be written");
+    path
+}
+
+/// The number `value`.
+pub fn float(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
