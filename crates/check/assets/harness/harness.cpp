@@ -1,0 +1,356 @@
+// Runs the two handed-in files: on small scenes with known answers, one section of the handout at a
+// time, and on the handout's scene. What they do is recorded (recorder.hpp) and judged elsewhere.
+//
+//   harness PLAN FIRST    carries out the steps of the file PLAN from number FIRST on
+//
+// A plan has one item a line:
+//
+//   scene                                   begins the next scene, numbered from 0
+//   object NAME r g b                       an object with its diffuse response
+//   triangle 9 floats, 3 floats             corners and normal; belongs to the object before
+//   light x y z r g b                       a point light: the student's PointLight
+//   emit SCENE CALLS COUNT numbers          a step: asks light 0 for rays
+//   trace SCENE CALLS PATH REMAINING RAYS 6 floats each COUNT numbers
+//                                           a step: traces photons along these rays, in turn
+//   whole SCENE PHOTONS                     a step: the whole run
+//
+// COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled with
+// -fno-access-control, since TracePhoton is private.
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include "common/Rendering/Renderer/Photon/Photon.h"
+#include "common/Rendering/Renderer/Photon/PhotonMappingRenderer.h"
+#include "common/Scene/Lights/Point/PointLight.h"
+#include "common/Scene/Scene.h"
+
+#include "recorder.hpp"
+
+namespace {
+
+using namespace photon_check;
+
+const std::uint64_t seed = 148;
+const glm::vec3 intensity(1e-3f, 2e-3f, 3e-3f);
+
+// The student's light, which tells the recorder that another photon begins.
+class RecordedLight : public PointLight {
+public:
+    RecordedLight() : next(0) {}
+    void GenerateRandomPhotonRay(Ray& ray) const override {
+        begin_numbers(seed, next, nullptr, 0);
+        begin_photon(next);
+        ++next;
+        PointLight::GenerateRandomPhotonRay(ray);
+    }
+
+private:
+    mutable std::uint64_t next;
+};
+
+struct Step {
+    enum Kind { emit, trace, whole } kind;
+    std::size_t scene;
+    std::uint64_t calls;
+    std::size_t path;
+    int remaining;
+    std::vector<Ray> rays;
+    std::vector<std::uint32_t> numbers;
+};
+
+// Stands in for the light where TracePhoton cannot be called: it sends out the step's rays.
+class ScriptedLight : public Light {
+public:
+    explicit ScriptedLight(const Step& of_step) : step(of_step), calls(0) {}
+    void ComputeSampleRays(std::vector<Ray>&, glm::vec3, glm::vec3) const override {}
+    float ComputeLightAttenuation(glm::vec3) const override { return 1.f; }
+    void GenerateRandomPhotonRay(Ray& ray) const override {
+        if (calls > 0) {
+            end_call();
+        }
+        begin_call();
+        begin_numbers(seed, calls, step.numbers.data(), step.numbers.size());
+        ray = step.rays[calls++ % step.rays.size()];
+    }
+
+private:
+    const Step& step;
+    mutable std::uint64_t calls;
+};
+
+struct LightData {
+    glm::vec3 position, color;
+};
+
+struct Plan {
+    std::vector<std::shared_ptr<Scene>> scenes;
+    std::vector<std::vector<LightData>> lights;
+    std::vector<Step> steps;
+};
+
+glm::vec3 read_vector(std::istream& in) {
+    glm::vec3 v;
+    in >> v.x >> v.y >> v.z;
+    return v;
+}
+
+bool read_plan(const char* path, Plan& plan) {
+    std::FILE* const file = std::fopen(path, "r");
+    if (file == nullptr) {
+        return false;
+    }
+    std::vector<char> text(1 << 20);
+    text.resize(std::fread(text.data(), 1, text.size(), file));
+    std::fclose(file);
+    std::istringstream lines(std::string(text.begin(), text.end()));
+    std::string line;
+    MeshObject* object = nullptr;
+    while (std::getline(lines, line)) {
+        std::istringstream in(line);
+        std::string item;
+        in >> item;
+        if (item == "scene") {
+            plan.scenes.push_back(std::make_shared<Scene>());
+            plan.lights.emplace_back();
+        } else if (item == "object") {
+            std::string name;
+            in >> name;
+            object = plan.scenes.back()->AddObject(name, read_vector(in));
+        } else if (item == "triangle") {
+            glm::vec3 corners[3];
+            for (glm::vec3& corner : corners) {
+                corner = read_vector(in);
+            }
+            plan.scenes.back()->AddTriangle(object, corners, read_vector(in));
+        } else if (item == "light") {
+            LightData light;
+            light.position = read_vector(in);
+            light.color = read_vector(in);
+            plan.lights.back().push_back(light);
+        } else {
+            Step step = Step();
+            in >> step.scene >> step.calls;
+            step.kind = item == "emit" ? Step::emit : item == "trace" ? Step::trace : Step::whole;
+            if (step.kind == Step::trace) {
+                std::size_t rays = 0;
+                in >> step.path >> step.remaining >> rays;
+                for (std::size_t i = 0; i < rays; ++i) {
+                    const glm::vec3 from = read_vector(in);
+                    Ray ray;
+                    ray.SetRayPosition(from);
+                    ray.SetRayDirection(read_vector(in));
+                    step.rays.push_back(ray);
+                }
+            }
+            if (step.kind != Step::whole) {
+                std::size_t count = 0;
+                in >> count;
+                step.numbers.resize(count);
+                for (std::uint32_t& number : step.numbers) {
+                    in >> number;
+                }
+            }
+            plan.steps.push_back(step);
+        }
+        if (!in) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The rest runs the student's code. Exceptions end one call, not the program.
+template <class Call>
+bool guarded(Call call) {
+    try {
+        call();
+        return true;
+    } catch (const std::exception& error) {
+        end_call_with_exception(error.what());
+    } catch (...) {
+        end_call_with_exception("an exception that is no std::exception");
+    }
+    return false;
+}
+
+std::shared_ptr<PhotonMappingRenderer> make_renderer(std::shared_ptr<Scene> scene) {
+    return std::make_shared<PhotonMappingRenderer>(scene, std::make_shared<ColorSampler>());
+}
+
+// Members that a student may have renamed are used where they are there. The overloads differ in
+// their last parameter; int is the better match for 0.
+template <class Renderer>
+auto set_photons(Renderer& renderer, int count, int)
+    -> decltype(static_cast<void>(renderer.SetNumberOfDiffusePhotons(count))) {
+    renderer.SetNumberOfDiffusePhotons(count);
+}
+template <class Renderer>
+auto set_photons(Renderer& renderer, int count, long)
+    -> decltype(static_cast<void>(renderer.diffusePhotonNumber = count)) {
+    renderer.diffusePhotonNumber = count;
+}
+
+template <class Renderer>
+void set_photons(Renderer&, int, ...) {}
+
+template <class Renderer>
+auto set_bounces(Renderer& renderer, int count, int)
+    -> decltype(static_cast<void>(renderer.maxPhotonBounces = count), true) {
+    renderer.maxPhotonBounces = count;
+    return true;
+}
+template <class Renderer>
+bool set_bounces(Renderer&, int count, long) {
+    return count == 1000;
+}
+
+template <class Renderer>
+auto trace_photon(Renderer& renderer, const Step& step, std::uint64_t call, int)
+    -> decltype(renderer.TracePhoton(renderer.diffuseMap, std::declval<Ray*>(), intensity,
+                                     std::declval<std::vector<char>&>(), 1.f, step.remaining),
+                true) {
+    Ray ray = step.rays[call % step.rays.size()];
+    std::vector<char> path(step.path, 'D');
+    path[0] = 'L';
+    renderer.TracePhoton(renderer.diffuseMap, &ray, intensity, path, 1.f, step.remaining);
+    return true;
+}
+template <class Renderer>
+bool trace_photon(Renderer&, const Step&, std::uint64_t, long) {
+    return false;
+}
+
+template <class Renderer>
+auto can_call(Renderer& renderer, int)
+    -> decltype(renderer.TracePhoton(renderer.diffuseMap, std::declval<Ray*>(), intensity,
+                                     std::declval<std::vector<char>&>(), 1.f, 0),
+                true) {
+    return true;
+}
+template <class Renderer>
+bool can_call(Renderer&, long) {
+    return false;
+}
+
+template <class Renderer>
+auto clear_map(Renderer& renderer, int) -> decltype(static_cast<void>(renderer.diffuseMap.clear())) {
+    renderer.diffuseMap.clear();
+}
+template <class Renderer>
+void clear_map(Renderer&, long) {}
+
+void run_emit(const Plan& plan, const Step& step) {
+    PointLight light;
+    light.SetPosition(plan.lights[step.scene][0].position);
+    light.SetLightColor(plan.lights[step.scene][0].color);
+    const Light& as_light = light;
+    set_mode(Mode::events);
+    for (std::uint64_t i = 0; i < step.calls; ++i) {
+        begin_call();
+        begin_numbers(seed, i, step.numbers.data(), step.numbers.size());
+        if (guarded([&] {
+                Ray ray;
+                as_light.GenerateRandomPhotonRay(ray);
+                const glm::vec3 from = glm::vec3(ray.GetPosition());
+                const glm::vec3 towards = ray.GetRayDirection();
+                const float values[6] = {from.x, from.y, from.z, towards.x, towards.y, towards.z};
+                on_emitted(values);
+            })) {
+            end_call();
+        }
+    }
+}
+
+// Through InitializeRenderer, for a TracePhoton that takes other arguments. Its paths start with the
+// light alone.
+template <class Renderer>
+void run_trace_from_light(Renderer& renderer, Scene& scene, const Step& step) {
+    if (step.path != 1 || !set_bounces(renderer, step.remaining, 0)) {
+        other_signature();
+        return;
+    }
+    const std::shared_ptr<ScriptedLight> light = std::make_shared<ScriptedLight>(step);
+    light->SetLightColor(glm::vec3(1.f));
+    scene.AddLight(light);
+    set_photons(renderer, static_cast<int>(step.calls), 0);
+    set_mode(Mode::events);
+    if (guarded([&] { renderer.InitializeRenderer(); })) {
+        end_call();
+    }
+}
+
+void run_trace(const Plan& plan, const Step& step) {
+    std::shared_ptr<PhotonMappingRenderer> renderer;
+    const std::shared_ptr<Scene> scene = std::make_shared<Scene>(*plan.scenes[step.scene]);
+    if (!guarded([&] { renderer = make_renderer(scene); })) {
+        return;
+    }
+    if (!can_call(*renderer, 0)) {
+        run_trace_from_light(*renderer, *scene, step);
+        return;
+    }
+    set_mode(Mode::events);
+    for (std::uint64_t i = 0; i < step.calls; ++i) {
+        begin_call();
+        begin_numbers(seed, i, step.numbers.data(), step.numbers.size());
+        if (guarded([&] { trace_photon(*renderer, step, i, 0); })) {
+            end_call();
+        }
+        clear_map(*renderer, 0);
+    }
+}
+
+void run_whole(const Plan& plan, const Step& step) {
+    const std::shared_ptr<Scene> scene = std::make_shared<Scene>(*plan.scenes[step.scene]);
+    for (const LightData& data : plan.lights[step.scene]) {
+        const std::shared_ptr<RecordedLight> light = std::make_shared<RecordedLight>();
+        light->SetPosition(data.position);
+        light->SetLightColor(data.color);
+        scene->AddLight(light);
+    }
+    guarded([&] {
+        const std::shared_ptr<PhotonMappingRenderer> renderer = make_renderer(scene);
+        set_photons(*renderer, static_cast<int>(step.calls), 0);
+        set_mode(Mode::whole);
+        renderer->InitializeRenderer();
+        end_whole_run();
+    });
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    watch_the_stack();
+    Plan plan;
+    if (argc != 3 || !read_plan(argv[1], plan)) {
+        std::fprintf(stderr, "harness: expected a plan and the number of a step\n");
+        return 2;
+    }
+    if (!system_calls_are_filtered()) {
+        notice(not_guarded);
+    }
+    for (std::size_t i = std::stoul(argv[2]); i < plan.steps.size(); ++i) {
+        const Step& step = plan.steps[i];
+        begin_step(static_cast<std::uint32_t>(i));
+        switch (step.kind) {
+        case Step::emit:
+            run_emit(plan, step);
+            break;
+        case Step::trace:
+            run_trace(plan, step);
+            break;
+        case Step::whole:
+            run_whole(plan, step);
+            break;
+        }
+        set_mode(Mode::silent);
+        end_step();
+    }
+    all_steps_ended();
+    // What the student's destructors would do is of no interest.
+    _exit(0);
+}

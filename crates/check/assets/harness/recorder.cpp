@@ -1,0 +1,162 @@
+// The recorder: see recorder.hpp.
+
+#include "recorder.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <unistd.h>
+
+namespace photon_check {
+namespace {
+
+const int pipe_to_check = 3;
+// The longest list that `grade` reads.
+const std::uint64_t most_records = 5000000;
+
+char buffer[1 << 16];
+std::size_t used = 0;
+Mode mode = Mode::silent;
+std::uint64_t drawn_before_call = 0;
+std::uint64_t drawn_before_run = 0;
+std::uint64_t photons = 0;
+std::uint64_t rays = 0;
+std::uint64_t records = 0;
+std::uint64_t photon = 0;
+std::uint16_t hits_of_photon = 0;
+std::uint16_t last_object = 0;
+bool noticed[8];
+
+void put_bytes(const void* bytes, std::size_t size) {
+    if (used + size > sizeof buffer) {
+        flush();
+    }
+    std::memcpy(buffer + used, bytes, size);
+    used += size;
+}
+
+void put(char letter) { put_bytes(&letter, 1); }
+template <class Number>
+void put_number(Number number) {
+    put_bytes(&number, sizeof number);
+}
+
+} // namespace
+
+void flush() {
+    std::size_t sent = 0;
+    while (sent < used) {
+        const ssize_t now = write(pipe_to_check, buffer + sent, used - sent);
+        if (now > 0) {
+            sent += static_cast<std::size_t>(now);
+        } else if (errno != EINTR) {
+            // Nobody listens any more.
+            _exit(3);
+        }
+    }
+    used = 0;
+}
+
+void set_mode(Mode new_mode) {
+    mode = new_mode;
+    photons = rays = records = 0;
+    drawn_before_run = numbers_drawn();
+}
+
+void begin_step(std::uint32_t number) {
+    put('B');
+    put_number(number);
+    flush();
+}
+
+void end_step() {
+    put('Q');
+    flush();
+}
+
+void begin_call() {
+    put('N');
+    drawn_before_call = numbers_drawn();
+}
+
+void end_call() {
+    put('E');
+    put_number(static_cast<std::uint32_t>(numbers_drawn() - drawn_before_call));
+}
+
+void end_call_with_exception(const char* what) {
+    const std::size_t length = strnlen(what, 500);
+    put('X');
+    put_number(static_cast<std::uint16_t>(length));
+    put_bytes(what, length);
+}
+
+void on_emitted(const float (&position_and_direction)[6]) {
+    put('R');
+    put_bytes(position_and_direction, sizeof position_and_direction);
+}
+
+void on_trace(const float (&position_and_direction)[6], bool met, bool has_state, float t,
+              int object, int triangle) {
+    ++rays;
+    if (mode == Mode::events) {
+        put('T');
+        put_bytes(position_and_direction, sizeof position_and_direction);
+        put_number(static_cast<std::uint8_t>((met ? 1 : 0) | (has_state ? 2 : 0)));
+        put_number(t);
+        put_number(static_cast<std::uint16_t>(object));
+        put_number(static_cast<std::uint16_t>(triangle));
+    }
+    if (met && has_state) {
+        ++hits_of_photon;
+        last_object = static_cast<std::uint16_t>(object);
+    }
+}
+
+void on_insert(const float (&values)[9]) {
+    if (mode == Mode::events) {
+        put('P');
+        put_bytes(values, sizeof values);
+    } else if (mode == Mode::whole) {
+        if (++records > most_records) {
+            put('L');
+            flush();
+            _exit(0);
+        }
+        put('W');
+        put_bytes(values, sizeof values);
+        put_number(static_cast<std::uint32_t>(photon));
+        // The first hit of a path has not bounced yet.
+        put_number(static_cast<std::uint16_t>(hits_of_photon == 0 ? 0 : hits_of_photon - 1));
+        put_number(last_object);
+    }
+}
+
+void begin_photon(std::uint64_t number) {
+    ++photons;
+    photon = number;
+    hits_of_photon = 0;
+}
+
+void end_whole_run() {
+    put('C');
+    put_number(numbers_drawn() - drawn_before_run);
+    put_number(photons);
+    put_number(rays);
+}
+
+void other_signature() { put('U'); }
+
+void notice(Notice what) {
+    if (!noticed[what]) {
+        noticed[what] = true;
+        put('S');
+        put_number(static_cast<std::uint8_t>(what));
+    }
+}
+
+void all_steps_ended() {
+    put('Z');
+    flush();
+}
+
+} // namespace photon_check

@@ -1,0 +1,71 @@
+// What the harness sees of a submission, and how it tells `photon-mapping check`.
+//
+// Messages go to file descriptor 3, a pipe. Each starts with a letter; numbers are as they lie in
+// memory. `events.rs` reads them.
+//
+//   B u32            the step with this number begins
+//   N                one call of the student's code begins
+//   R 6 f32          GenerateRandomPhotonRay returned this position and direction
+//   T 6 f32, u8, f32, u16, u16
+//                    Scene::Trace was called with this position and direction; bit 0: it met
+//                    something, bit 1: a state was given; the distance, the object, the triangle
+//   P 9 f32          a photon was stored: position, intensity, direction to the light
+//   E u32            the call ended; the numbers it drew
+//   X u16, bytes     the call ended with an exception, which says this
+//   W 44 bytes       a photon of the whole run was stored: a row of a photon list
+//   C u64, u64, u64  the whole run ended: numbers drawn, photons sent out, rays traced
+//   L                the whole run stored more than anyone reads
+//   U                the submission's functions have another signature; the step is left out
+//   S u8             something worth saying happened for the first time; see Notice
+//   O                the stack overflowed
+//   Q                the step ended
+//   Z                all steps ended
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace photon_check {
+
+enum Notice : std::uint8_t {
+    random_device_read = 1,
+    process_started = 2,
+    srand_called = 3,
+    not_guarded = 4,
+};
+
+// Whether single calls are told (the steps for one section) or only stored photons (the whole run).
+enum class Mode : std::uint8_t { silent, events, whole };
+void set_mode(Mode mode);
+
+void begin_step(std::uint32_t number);
+void end_step();
+void begin_call();
+void end_call();
+void end_call_with_exception(const char* what);
+void on_emitted(const float (&position_and_direction)[6]);
+void on_trace(const float (&position_and_direction)[6], bool met, bool has_state, float t,
+              int object, int triangle);
+void on_insert(const float (&values)[9]);
+void end_whole_run();
+void other_signature();
+void notice(Notice what);
+void all_steps_ended();
+
+// In guard.cpp.
+void watch_the_stack();
+bool system_calls_are_filtered();
+
+// Sends what is still in memory.
+void flush();
+
+// The photon of the whole run that is traced from here on.
+void begin_photon(std::uint64_t number);
+
+// In random.cpp: goes to the start of a photon's random numbers. First come `scripted` ones, each a
+// multiple of 2^-24.
+void begin_numbers(std::uint64_t seed, std::uint64_t photon, const std::uint32_t* scripted,
+                   std::size_t count);
+std::uint64_t numbers_drawn();
+
+} // namespace photon_check

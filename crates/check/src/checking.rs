@@ -1,0 +1,143 @@
+//! Checking one submission from its files to its report.
+
+use std::time::{Duration, Instant};
+
+use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
+
+use crate::compile::Workshop;
+use crate::error::CheckError;
+use crate::events::Notice;
+use crate::find::{LIGHT, RENDERER, Submission};
+use crate::kit::Kit;
+use crate::plan::{self, Step};
+use crate::report::{Builds, Report, Whole};
+use crate::run::{Observed, run};
+use crate::sandbox::has_bubblewrap;
+use crate::sections;
+
+/// How submissions are checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// How long the compiler may take for a file, and how long the submission may run.
+    pub time: Duration,
+    /// How many photons are sent out in the whole run.
+    pub photons: u64,
+    /// How many compilers may run at once for one submission.
+    pub jobs: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { time: Duration::from_secs(60), photons: 200_000, jobs: 1 }
+    }
+}
+
+/// Compiles and runs `submission`, and judges what it does.
+///
+/// # Errors
+/// When the compiler, the kit or the system is at fault, but not the submission.
+pub fn check(
+    submission: &Submission,
+    kit: &Kit,
+    settings: &Settings,
+) -> Result<Report, CheckError> {
+    let mut report = Report {
+        submission: submission.name.clone(),
+        builds: Builds::Yes,
+        sections: Vec::new(),
+        whole: Whole { photons: settings.photons, ..Whole::default() },
+        remarks: submission.notes.clone(),
+        seconds: [0.0; 2],
+        list: None,
+    };
+    let (light, renderer) = match (&submission.light, &submission.renderer) {
+        (Some(light), Some(renderer)) => (light, renderer),
+        (None, _) => {
+            report.builds = Builds::MissingFile { file: LIGHT };
+            return Ok(report);
+        }
+        (_, None) => {
+            report.builds = Builds::MissingFile { file: RENDERER };
+            return Ok(report);
+        }
+    };
+    let start = Instant::now();
+    let workshop = Workshop::new(kit, light, renderer, submission, settings.time)?;
+    let built = workshop.build(settings.jobs)?;
+    report.seconds[0] = start.elapsed().as_secs_f64();
+    let program = match built {
+        Ok(program) => program,
+        Err(error) => {
+            report.builds = Builds::No(error);
+            return Ok(report);
+        }
+    };
+    let observed = run(&program, workshop.path(), settings.photons, settings.time)?;
+    report.seconds[1] = observed.seconds;
+    if let Some(death) = &observed.before_any {
+        let what = death.sentence();
+        report.builds = Builds::EndsAtOnce { what };
+        return Ok(report);
+    }
+    report.sections = sections::judge(&observed);
+    report.remarks.extend(remarks(&observed));
+    add_whole(observed, &mut report);
+    Ok(report)
+}
+
+fn remarks(observed: &Observed) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let has = |notice| observed.log.notices.contains(&notice);
+    if has(Notice::RandomDevice) {
+        remarks.push(
+            "std::random_device is read: here it gives the numbers of the photon's stream, so that every run is \
+             the same"
+                .to_owned(),
+        );
+    }
+    if has(Notice::Process) {
+        remarks.push("a process was to be started, which is not allowed here".to_owned());
+    }
+    if observed.printed_bytes > 0 {
+        let first: String =
+            observed.printed.lines().next().unwrap_or_default().chars().take(60).collect();
+        let first: String =
+            first.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+        remarks.push(format!(
+            "it prints {} bytes, which start with \"{first}\"",
+            observed.printed_bytes
+        ));
+    }
+    if has(Notice::NotGuarded) {
+        remarks.push(
+            "this system has no filter for system calls: run submissions in a container".to_owned(),
+        );
+    }
+    if !has_bubblewrap() {
+        remarks.push(
+            "bubblewrap is not at hand: submissions could read files of this account, but not change them"
+                .to_owned(),
+        );
+    }
+    remarks
+}
+
+fn add_whole(observed: Observed, report: &mut Report) {
+    let death =
+        observed.death(Step::Whole).map(|death| format!("the whole run {}", death.sentence()));
+    report.whole.death = death;
+    let whole = observed.log.whole;
+    debug_assert!(plan::steps().last() == Some(&Step::Whole));
+    if whole.is_too_long {
+        report.whole.death =
+            Some("the whole run stores more than 5,000,000 photons, and is ended".to_owned());
+    }
+    if let Some([drawn, ..]) = whole.counts {
+        report.whole.drawn = Some(drawn);
+        report.whole.stored = Some(whole.records.len() as u64);
+    }
+    let columns =
+        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
+    report.list = Some(PhotonList { columns, records: whole.records });
+}

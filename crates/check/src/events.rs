@@ -1,0 +1,277 @@
+//! What the harness tells, message by message; see `assets/harness/recorder.hpp`.
+
+use std::collections::BTreeSet;
+
+use glam::Vec3;
+use photon_mapping::photon_list::{PhotonRecord, ROW_BYTES};
+
+/// A question to the scene: what does this ray meet?
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trace {
+    /// Where the ray starts.
+    pub from: Vec3,
+    /// Its direction, of any length.
+    pub direction: Vec3,
+    /// Whether it met something.
+    pub met: bool,
+    /// Whether what it met was asked for, and not only whether it meets something.
+    pub has_state: bool,
+    /// The distance in units of the direction's length.
+    pub t: f32,
+    /// The triangle met.
+    pub triangle: u16,
+}
+
+impl Trace {
+    /// The point met.
+    pub fn hit(&self) -> Vec3 {
+        self.from + self.t * self.direction
+    }
+}
+
+/// A photon that was stored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stored {
+    /// Its position.
+    pub position: Vec3,
+    /// Its intensity.
+    pub intensity: Vec3,
+    /// The direction of its `toLightRay`.
+    pub to_light: Vec3,
+}
+
+/// One call of the student's code, and what it did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Call {
+    /// The position and direction of the ray that left the light.
+    pub emitted: Option<[Vec3; 2]>,
+    /// The questions to the scene, in order.
+    pub traces: Vec<Trace>,
+    /// The photons stored, in order.
+    pub stored: Vec<Stored>,
+    /// How many random numbers were drawn from the functions that the harness stands behind.
+    pub drawn: u32,
+    /// What an exception said that ended the call.
+    pub exception: Option<String>,
+}
+
+impl Call {
+    /// The hits of the path: questions for a state that met something.
+    pub fn hits(&self) -> impl Iterator<Item = &Trace> {
+        self.traces.iter().filter(|trace| trace.has_state && trace.met)
+    }
+
+    /// How many rays of the path were traced.
+    pub fn rays(&self) -> usize {
+        self.traces.iter().filter(|trace| trace.has_state).count()
+    }
+}
+
+/// How one step went.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepLog {
+    /// The calls, in order. One that did not end is missing, or the last.
+    pub calls: Vec<Call>,
+    /// Whether the student's functions have another signature, so that the step was left out.
+    pub other_signature: bool,
+    /// Whether the step came to its end.
+    pub ended: bool,
+}
+
+/// The whole run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WholeLog {
+    /// What was stored.
+    pub records: Vec<PhotonRecord>,
+    /// Numbers drawn, photons sent out, rays traced; nothing when the run did not end.
+    pub counts: Option<[u64; 3]>,
+    /// Whether more was stored than anyone reads.
+    pub is_too_long: bool,
+}
+
+/// Something that is worth saying, and happened at least once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Notice {
+    /// `std::random_device` was read.
+    RandomDevice,
+    /// A process was to be started.
+    Process,
+    /// `srand` or its like was called.
+    Srand,
+    /// System calls are not filtered on this system.
+    NotGuarded,
+}
+
+/// All that was told.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Log {
+    /// By the number of the step.
+    pub steps: Vec<StepLog>,
+    /// The whole run.
+    pub whole: WholeLog,
+    /// What was noticed.
+    pub notices: BTreeSet<Notice>,
+    /// The step that was begun last.
+    pub current: Option<usize>,
+    /// Whether all steps ended.
+    pub is_complete: bool,
+    /// Whether the stack overflowed.
+    pub stack_overflowed: bool,
+    /// Whether what was told makes no sense.
+    pub is_broken: bool,
+}
+
+/// Reads messages from pieces that end anywhere.
+#[derive(Debug, Default)]
+pub struct Reader {
+    waiting: Vec<u8>,
+}
+
+impl Reader {
+    /// Adds what `piece` tells to `log`.
+    pub fn read(&mut self, piece: &[u8], log: &mut Log) {
+        self.waiting.extend_from_slice(piece);
+        let mut at = 0;
+        while !log.is_broken {
+            let Some(length) = message(&self.waiting[at..], log) else { break };
+            at += length;
+        }
+        self.waiting.drain(..at);
+    }
+}
+
+/// Reads one message from the start of `bytes`; its length, or nothing if it is not all there.
+fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
+    let mut rest = Bytes { bytes, at: 1 };
+    let kind = *bytes.first()?;
+    match kind {
+        b'B' => {
+            let number = rest.u32()? as usize;
+            if number < 1000 {
+                log.current = Some(number);
+                if log.steps.len() <= number {
+                    log.steps.resize_with(number + 1, StepLog::default);
+                }
+            } else {
+                log.is_broken = true;
+            }
+        }
+        b'N' => step(log).calls.push(Call::default()),
+        b'R' => {
+            let ray = [rest.vector()?, rest.vector()?];
+            call(log).emitted = Some(ray);
+        }
+        b'T' => {
+            let (from, direction) = (rest.vector()?, rest.vector()?);
+            let bits = rest.u8()?;
+            let t = rest.f32()?;
+            let _object = rest.u16()?;
+            let triangle = rest.u16()?;
+            let (met, has_state) = (bits & 1 != 0, bits & 2 != 0);
+            call(log).traces.push(Trace { from, direction, met, has_state, t, triangle });
+        }
+        b'P' => {
+            let stored = Stored {
+                position: rest.vector()?,
+                intensity: rest.vector()?,
+                to_light: rest.vector()?,
+            };
+            call(log).stored.push(stored);
+        }
+        b'E' => {
+            let drawn = rest.u32()?;
+            call(log).drawn = drawn;
+        }
+        b'X' => {
+            let length = rest.u16()? as usize;
+            let text = String::from_utf8_lossy(rest.take(length)?).into_owned();
+            call(log).exception = Some(text);
+        }
+        b'W' => {
+            let row = rest.take(ROW_BYTES)?;
+            let mut row = Bytes { bytes: row, at: 0 };
+            log.whole.records.push(PhotonRecord {
+                position: row.vector()?,
+                intensity: row.vector()?,
+                to_light: row.vector()?,
+                photon: row.u32()?,
+                bounce: row.u16()?,
+                surface: row.u16()?,
+            });
+        }
+        b'C' => log.whole.counts = Some([rest.u64()?, rest.u64()?, rest.u64()?]),
+        b'L' => log.whole.is_too_long = true,
+        b'U' => step(log).other_signature = true,
+        b'S' => {
+            log.notices.extend(match rest.u8()? {
+                1 => Some(Notice::RandomDevice),
+                2 => Some(Notice::Process),
+                3 => Some(Notice::Srand),
+                4 => Some(Notice::NotGuarded),
+                _ => None,
+            });
+        }
+        b'O' => log.stack_overflowed = true,
+        b'Q' => step(log).ended = true,
+        b'Z' => log.is_complete = true,
+        _ => log.is_broken = true,
+    }
+    Some(rest.at)
+}
+
+fn step(log: &mut Log) -> &mut StepLog {
+    let current = log.current.unwrap_or_default();
+    if log.steps.len() <= current {
+        log.steps.resize_with(current + 1, StepLog::default);
+    }
+    &mut log.steps[current]
+}
+
+fn call(log: &mut Log) -> &mut Call {
+    let calls = &mut step(log).calls;
+    if calls.is_empty() {
+        calls.push(Call::default());
+    }
+    calls.last_mut().expect("there is one")
+}
+
+struct Bytes<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Bytes<'a> {
+    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
+        let taken = self.bytes.get(self.at..self.at + length)?;
+        self.at += length;
+        Some(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Option<[u8; N]> {
+        self.take(N)?.try_into().ok()
+    }
+
+    fn u8(&mut self) -> Option<u8> {
+        self.array().map(u8::from_ne_bytes)
+    }
+
+    fn u16(&mut self) -> Option<u16> {
+        self.array().map(u16::from_ne_bytes)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        self.array().map(u32::from_ne_bytes)
+    }
+
+    fn u64(&mut self) -> Option<u64> {
+        self.array().map(u64::from_ne_bytes)
+    }
+
+    fn f32(&mut self) -> Option<f32> {
+        self.array().map(f32::from_ne_bytes)
+    }
+
+    fn vector(&mut self) -> Option<Vec3> {
+        Some(Vec3::new(self.f32()?, self.f32()?, self.f32()?))
+    }
+}

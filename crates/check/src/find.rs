@@ -1,0 +1,174 @@
+//! The two files of a submission, wherever they lie in what was handed in.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::CheckError;
+
+/// The file with `GenerateRandomPhotonRay`.
+pub const LIGHT: &str = "PointLight.cpp";
+/// The file with `TracePhoton`.
+pub const RENDERER: &str = "PhotonMappingRenderer.cpp";
+/// Where the framework keeps the light's files.
+pub const LIGHT_FOLDER: &str = "common/Scene/Lights/Point";
+/// Where the framework keeps the renderer's files.
+pub const RENDERER_FOLDER: &str = "common/Rendering/Renderer/Photon";
+
+/// Folders deeper than this are not searched.
+const DEEPEST: usize = 12;
+/// After so many files, the search ends.
+const MOST_FILES: usize = 20_000;
+/// A larger file is not taken for source code.
+const LARGEST: u64 = 1 << 20;
+/// So many headers and sources beside the two files are taken along.
+const MOST_BESIDE: usize = 200;
+
+/// What was handed in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Submission {
+    /// What it is called in the report.
+    pub name: String,
+    /// The file with the emission, if there is one.
+    pub light: Option<PathBuf>,
+    /// The file with `TracePhoton`, if there is one.
+    pub renderer: Option<PathBuf>,
+    /// The folder of a whole checkout of the framework, in which `common/` lies.
+    pub checkout: Option<PathBuf>,
+    /// What is worth saying about the search.
+    pub notes: Vec<String>,
+}
+
+impl Submission {
+    /// Finds the two files in `path`: a folder anywhere above them, or one of them, with the other beside it.
+    ///
+    /// # Errors
+    /// When `path` cannot be read.
+    pub fn find(path: &Path) -> Result<Self, CheckError> {
+        let about = fs::metadata(path)
+            .map_err(|source| CheckError::Unreadable { path: path.to_owned(), source })?;
+        let folder = if about.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let mut submission = Self { name: name_of(path), ..Self::default() };
+        let mut search = Search::default();
+        search.look_into(folder, 0);
+        submission.light = search.choose(LIGHT, LIGHT_FOLDER, &mut submission.notes);
+        submission.renderer = search.choose(RENDERER, RENDERER_FOLDER, &mut submission.notes);
+        submission.checkout = submission.renderer.as_deref().and_then(checkout_of);
+        if search.files >= MOST_FILES {
+            submission.notes.push(format!("only the first {MOST_FILES} files were searched"));
+        }
+        Ok(submission)
+    }
+
+    /// The submission with these two files.
+    pub fn of_files(light: &Path, renderer: &Path) -> Self {
+        Self {
+            name: name_of(renderer.parent().unwrap_or(renderer)),
+            light: Some(light.to_owned()),
+            renderer: Some(renderer.to_owned()),
+            checkout: checkout_of(renderer),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Whether `path` is a class: a folder in which at least two folders are submissions.
+    pub fn of_class(path: &Path) -> Result<Vec<PathBuf>, CheckError> {
+        let entries = fs::read_dir(path)
+            .map_err(|source| CheckError::Unreadable { path: path.to_owned(), source })?;
+        let mut folders: Vec<_> = entries
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| path.is_dir() && !is_hidden(path))
+            .collect();
+        folders.sort();
+        Ok(folders)
+    }
+}
+
+fn name_of(path: &Path) -> String {
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    name.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
+}
+
+fn is_hidden(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.starts_with('.') || name == "__MACOSX" || name == "CMakeFiles"
+}
+
+/// The folder in which the framework's `common` lies, if `renderer` lies where the framework has it.
+fn checkout_of(renderer: &Path) -> Option<PathBuf> {
+    let folder = fs::canonicalize(renderer.parent()?).ok()?;
+    let root = folder.ancestors().nth(Path::new(RENDERER_FOLDER).components().count())?;
+    folder.ends_with(RENDERER_FOLDER).then(|| root.to_owned())
+}
+
+#[derive(Default)]
+struct Search {
+    found: BTreeMap<String, Vec<PathBuf>>,
+    files: usize,
+}
+
+impl Search {
+    fn look_into(&mut self, folder: &Path, depth: usize) {
+        let Ok(entries) = fs::read_dir(folder) else { return };
+        let mut entries: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+        entries.sort();
+        for path in entries {
+            if self.files >= MOST_FILES || is_hidden(&path) {
+                continue;
+            }
+            // Symlinks are not followed: they may lead out of the submission.
+            let Ok(about) = fs::symlink_metadata(&path) else { continue };
+            if about.is_dir() {
+                if depth < DEEPEST {
+                    self.look_into(&path, depth + 1);
+                }
+                continue;
+            }
+            self.files += 1;
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if about.is_file() && (name == LIGHT || name == RENDERER) && about.len() <= LARGEST {
+                self.found.entry(name.into_owned()).or_default().push(path);
+            }
+        }
+    }
+
+    /// Of several files with one name, the one where the framework has it, else the one nearest to the top.
+    fn choose(&self, name: &str, home: &str, notes: &mut Vec<String>) -> Option<PathBuf> {
+        let all = self.found.get(name)?;
+        let at_home = |path: &&PathBuf| path.parent().is_some_and(|parent| parent.ends_with(home));
+        let depth = |path: &&PathBuf| path.components().count();
+        let chosen = all.iter().min_by_key(|path| (!at_home(path), depth(path)))?;
+        let content = fs::read(chosen).ok();
+        if all.iter().any(|other| fs::read(other).ok() != content) {
+            notes.push(format!(
+                "there are {} different files {name}; {} was taken",
+                all.len(),
+                chosen.display()
+            ));
+        }
+        Some(chosen.clone())
+    }
+}
+
+/// The headers and sources in the folder of `file`, with `file` itself: their paths.
+pub(crate) fn beside(file: &Path) -> Vec<PathBuf> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let Ok(entries) = fs::read_dir(folder.unwrap_or(Path::new("."))) else { return Vec::new() };
+    let mut files: Vec<_> = entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| {
+            let extension = path.extension().unwrap_or_default().to_string_lossy();
+            let is_source = ["h", "hpp", "hh", "inl", "cpp", "cc", "cxx"].contains(&&*extension);
+            let is_small = fs::symlink_metadata(path)
+                .is_ok_and(|about| about.is_file() && about.len() <= LARGEST);
+            is_source && is_small && !is_hidden(path)
+        })
+        .collect();
+    files.sort();
+    files.truncate(MOST_BESIDE);
+    files
+}

@@ -1,0 +1,278 @@
+//! What the harness is to do: small scenes with known answers, one section of the handout at a time, and the
+//! handout's scene.
+
+use std::fmt::Write as _;
+
+use glam::Vec3;
+use photon_mapping::assignment8;
+
+/// Numbers in steps of 2^-24, as the harness draws them.
+pub const UNITS: f32 = 16_777_216.0;
+/// The intensity that the harness hands to `TracePhoton`.
+pub const INTENSITY: Vec3 = Vec3::new(1e-3, 2e-3, 3e-3);
+/// Where the light stands in the steps for Photon Emission.
+pub const LIGHT: Vec3 = Vec3::new(0.3, -0.2, 1.5);
+/// A direction that the emission may find at its second try, before it is normalised.
+pub const SECOND_TRY: [f32; 3] = [0.25, -0.5, 0.125];
+/// The diffuse responses that tell one rule for P_r from another: every channel is the largest once.
+pub const COLOURS: [Vec3; 3] =
+    [Vec3::new(0.2, 0.5, 0.8), Vec3::new(0.8, 0.2, 0.5), Vec3::new(0.5, 0.8, 0.2)];
+/// How often a photon may bounce at most in steps where that must not matter.
+const FAR: i32 = 1000;
+/// As many calls show every misreading far beyond chance.
+const CALLS: u64 = 4000;
+
+/// One step of the plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// Many rays from the light.
+    Emit,
+    /// The first three draws are a point in the corner of the cube; the next are [`SECOND_TRY`].
+    EmitCorner,
+    /// The first three draws are a point on the sphere.
+    EmitOnSphere,
+    /// The first three draws are zero.
+    EmitZero,
+    /// The first hit of a path on a black wall.
+    StoreFirst,
+    /// A later hit, with a path of this length before it.
+    StoreLater(usize),
+    /// A ray that meets nothing.
+    StoreMiss,
+    /// A closed white cube, with this many remaining bounces, and two elements in the path.
+    Remaining(i32),
+    /// A closed white cube, from the light on.
+    GrowPath,
+    /// A floor that absorbs everything.
+    Black,
+    /// A floor that absorbs nothing.
+    White,
+    /// A floor with one of the [`COLOURS`].
+    Colour(usize),
+    /// A closed grey cube, from the light on.
+    GreyCube,
+    /// A grey floor; the first number drawn is 0.5 and this much more, in units of 2^-24.
+    Threshold(i32),
+    /// A grey floor: directions around (0, 0, 1).
+    Floor,
+    /// A grey wall with this normal.
+    Wall(Vec3),
+    /// The handout's scene.
+    Whole,
+}
+
+/// The normals of the walls: the scene's own, those along the axes, and one that is along nothing.
+pub fn wall_normals() -> Vec<Vec3> {
+    [
+        Vec3::new(-1.0, 0.0, 0.0),
+        Vec3::new(0.6, 0.0, 0.8),
+        Vec3::new(-0.9536, 0.3011, 0.0).normalize(),
+        Vec3::new(0.3011, -0.9536, 0.0).normalize(),
+        Vec3::new(0.36, 0.48, 0.8),
+        Vec3::new(1.0, 0.0, 0.0),
+    ]
+    .to_vec()
+}
+
+/// The steps, in the order in which they are carried out.
+pub fn steps() -> Vec<Step> {
+    let mut steps = vec![
+        Step::Emit,
+        Step::EmitCorner,
+        Step::EmitOnSphere,
+        Step::EmitZero,
+        Step::StoreFirst,
+        Step::StoreLater(2),
+        Step::StoreLater(3),
+        Step::StoreMiss,
+        Step::Remaining(-1),
+        Step::Remaining(0),
+        Step::Remaining(1),
+        Step::Remaining(1000),
+        Step::GrowPath,
+        Step::Black,
+        Step::White,
+        Step::Colour(0),
+        Step::Colour(1),
+        Step::Colour(2),
+        Step::GreyCube,
+        Step::Threshold(-1024),
+        Step::Threshold(0),
+        Step::Threshold(1024),
+        Step::Floor,
+    ];
+    steps.extend(wall_normals().into_iter().map(Step::Wall));
+    steps.push(Step::Whole);
+    steps
+}
+
+/// The file for the harness, with `photons` photons in the whole run.
+pub fn file(photons: u64) -> String {
+    let mut file = String::new();
+    for (scenes, step) in steps().into_iter().enumerate() {
+        add_scene(step, &mut file);
+        let what = match step {
+            Step::Emit => format!("emit {scenes} {CALLS} 0"),
+            Step::EmitCorner | Step::EmitOnSphere | Step::EmitZero => {
+                let first = first_try(step).unwrap_or_default();
+                let numbers = [first, SECOND_TRY].map(|xyz| xyz.map(units_of_minus_1_to_1));
+                let numbers = numbers.as_flattened().iter().map(u32::to_string);
+                format!("emit {scenes} 1 6 {}", numbers.collect::<Vec<_>>().join(" "))
+            }
+            Step::Whole => format!("whole {scenes} {photons}"),
+            _ => trace(step, scenes),
+        };
+        line(&mut file, &what);
+    }
+    file
+}
+
+/// The first point that is drawn in a step with scripted draws.
+pub fn first_try(step: Step) -> Option<[f32; 3]> {
+    match step {
+        Step::EmitCorner => Some([0.9375, -0.9375, 0.875]),
+        Step::EmitOnSphere => Some([-1.0, 0.0, 0.0]),
+        Step::EmitZero => Some([0.0; 3]),
+        _ => None,
+    }
+}
+
+fn units_of_minus_1_to_1(x: f32) -> u32 {
+    ((x + 1.0) * 0.5 * UNITS) as u32
+}
+
+/// The rays of a step that traces photons.
+pub fn rays(step: Step) -> Vec<[Vec3; 2]> {
+    let normal = match step {
+        Step::Wall(normal) => normal,
+        Step::StoreMiss => return vec![[Vec3::new(0.0, 0.0, 1.0), Vec3::Z]],
+        _ => Vec3::Z,
+    };
+    // Towards the wall from above it, along different slants: no rounding is then typical.
+    let across = normal.any_orthonormal_vector();
+    let along = normal.cross(across);
+    (0..16)
+        .map(|i| {
+            let angle = i as f32 * 2.4;
+            let slant = 0.1 + 0.05 * i as f32;
+            let aside = slant * (libm::cosf(angle) * across + libm::sinf(angle) * along);
+            let start = CENTRE + 0.7 * normal + 0.3 * aside;
+            [start, (aside - normal).normalize()]
+        })
+        .collect()
+}
+
+/// The point around which walls and cubes lie.
+const CENTRE: Vec3 = Vec3::new(0.137, -0.211, 0.423);
+
+fn trace(step: Step, scene: usize) -> String {
+    let (calls, path, remaining) = match step {
+        Step::StoreFirst => (16, 1, FAR),
+        Step::StoreLater(path) => (16, path, FAR),
+        Step::StoreMiss => (4, 2, FAR),
+        Step::Remaining(remaining) => (8, 2, remaining),
+        Step::GrowPath => (16, 1, 5),
+        Step::Black | Step::White => (400, 1, FAR),
+        Step::Threshold(_) => (1, 1, FAR),
+        Step::GreyCube => (2000, 1, FAR),
+        Step::Floor => (2 * CALLS, 1, FAR),
+        _ => (CALLS, 1, FAR),
+    };
+    let mut text = format!("trace {scene} {calls} {path} {remaining}");
+    let rays = rays(step);
+    write!(text, " {}", rays.len()).expect("a string takes everything");
+    for vector in rays.as_flattened() {
+        text += &vector_text(*vector);
+    }
+    match step {
+        Step::Threshold(more) => {
+            let number = (UNITS as i64 / 2 + i64::from(more)) as u32;
+            write!(text, " 1 {number}").expect("a string takes everything");
+        }
+        _ => text += " 0",
+    }
+    text
+}
+
+fn add_scene(step: Step, file: &mut String) {
+    line(file, "scene");
+    match step {
+        Step::Emit | Step::EmitCorner | Step::EmitOnSphere | Step::EmitZero => {
+            line(file, &format!("light{}{}", vector_text(LIGHT), vector_text(Vec3::ONE)));
+        }
+        Step::StoreMiss => {}
+        Step::StoreFirst | Step::StoreLater(_) | Step::Black => wall(file, Vec3::Z, Vec3::ZERO),
+        Step::Remaining(_) | Step::GrowPath => cube(file, Vec3::ONE),
+        Step::GreyCube => cube(file, Vec3::splat(0.5)),
+        Step::White => wall(file, Vec3::Z, Vec3::ONE),
+        Step::Colour(index) => wall(file, Vec3::Z, COLOURS[index]),
+        Step::Threshold(_) | Step::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
+        Step::Wall(normal) => wall(file, normal, Vec3::splat(0.5)),
+        Step::Whole => handout(file),
+    }
+}
+
+fn handout(file: &mut String) {
+    let scene = assignment8::create_scene();
+    let mut current = None;
+    for triangle in scene.triangles() {
+        if current != Some(triangle.parent_mesh_object) {
+            current = Some(triangle.parent_mesh_object);
+            let object = &scene.mesh_objects()[triangle.parent_mesh_object];
+            let diffuse = object.material.base_diffuse_reflection();
+            line(file, &format!("object {}{}", object.name, vector_text(diffuse)));
+        }
+        triangle_line(file, triangle.vertices, triangle.normal);
+    }
+    for light in scene.lights() {
+        line(file, &format!("light{}{}", vector_text(light.position), vector_text(light.color)));
+    }
+}
+
+fn wall(file: &mut String, normal: Vec3, diffuse: Vec3) {
+    line(file, &format!("object wall{}", vector_text(diffuse)));
+    square(file, CENTRE, normal, 2.0);
+}
+
+/// A closed cube that photons see from within.
+fn cube(file: &mut String, diffuse: Vec3) {
+    line(file, &format!("object cube{}", vector_text(diffuse)));
+    for normal in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]) {
+        square(file, CENTRE - normal, normal, 1.0);
+    }
+}
+
+/// A square around `centre` with edges of twice `half`.
+fn square(file: &mut String, centre: Vec3, normal: Vec3, half: f32) {
+    let across = half * square_axis(normal);
+    let along = normal.cross(across);
+    let corners = [-across - along, across - along, across + along, along - across]
+        .map(|corner| centre + corner);
+    triangle_line(file, [corners[0], corners[1], corners[2]], normal);
+    triangle_line(file, [corners[0], corners[2], corners[3]], normal);
+}
+
+/// A unit vector in the plane; along an axis where the normal is, so that the sides of a cube meet.
+fn square_axis(normal: Vec3) -> Vec3 {
+    match normal.abs().max_position() {
+        _ if normal.abs().max_element() < 1.0 => normal.any_orthonormal_vector(),
+        0 => Vec3::Y,
+        1 => Vec3::Z,
+        _ => Vec3::X,
+    }
+}
+
+fn triangle_line(file: &mut String, corners: [Vec3; 3], normal: Vec3) {
+    let [a, b, c] = corners.map(vector_text);
+    line(file, &format!("triangle{a}{b}{c}{}", vector_text(normal)));
+}
+
+/// Floats have as many digits as bring back the same bits.
+fn vector_text(v: Vec3) -> String {
+    format!(" {} {} {}", v.x, v.y, v.z)
+}
+
+fn line(file: &mut String, text: &str) {
+    file.push_str(text);
+    file.push('\n');
+}

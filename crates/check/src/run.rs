@@ -1,0 +1,223 @@
+//! Running the harness: again after every step in which it dies, so that one step never hides another.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use crate::error::CheckError;
+use crate::events::{Log, Reader};
+use crate::kit::write;
+use crate::plan::{self, Step};
+use crate::sandbox::{Ending, Limits, Outcome, Program};
+
+/// A step with a small scene takes far less; an endless loop is not waited for longer.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// After so many steps that died, the others are left out, except the whole run.
+const MOST_DEATHS: usize = 6;
+/// The memory of a submission, in MiB.
+const MEMORY: u64 = 1 << 10;
+
+/// How a step died.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Death {
+    /// It did not end in time.
+    TimeOut {
+        /// The time, in seconds.
+        seconds: u64,
+    },
+    /// By a signal.
+    Signal {
+        /// Its number.
+        signal: i32,
+    },
+    /// The program ended itself.
+    Exit {
+        /// With this code.
+        code: i32,
+    },
+    /// The stack overflowed.
+    StackOverflow,
+    /// It printed too much.
+    TooMuchOutput,
+    /// An exception left the function.
+    Exception {
+        /// What it says.
+        what: String,
+    },
+    /// Earlier steps died too often.
+    LeftOut,
+}
+
+impl Death {
+    /// What happened, as the end of a sentence that starts with what was called.
+    pub fn sentence(&self) -> String {
+        match self {
+            Self::TimeOut { seconds } => {
+                format!("does not end within {seconds} s: look for a loop or a recursion without end")
+            }
+            Self::Signal { signal } => match *signal {
+                6 => "aborts: an assertion fails, or abort() is called".to_owned(),
+                8 => "divides an integer by zero".to_owned(),
+                9 | 24 => "uses up its time or its memory, and is ended".to_owned(),
+                11 => "crashes (segmentation fault): look for a pointer that points nowhere".to_owned(),
+                25 => "writes a file that is too large, and is ended".to_owned(),
+                31 => "calls what is not allowed, and is ended".to_owned(),
+                signal => format!("is ended by signal {signal}"),
+            },
+            Self::Exit { code } => format!("ends the whole program with exit code {code}"),
+            Self::StackOverflow => {
+                "overflows the stack: look for a recursion without end, or very large local variables"
+                    .to_owned()
+            }
+            Self::TooMuchOutput => "prints more than 256 MB, and is ended".to_owned(),
+            Self::Exception { what } if what.contains("bad_alloc") => {
+                format!("uses more than {MEMORY} MB of memory")
+            }
+            Self::Exception { what } => format!("throws an exception: {what}"),
+            Self::LeftOut => "was not called, since earlier calls did not end well".to_owned(),
+        }
+    }
+}
+
+/// What the submission did in all steps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observed {
+    /// What it told.
+    pub log: Log,
+    /// How steps died, by their number.
+    pub deaths: Vec<Option<Death>>,
+    /// How the program died before its first step.
+    pub before_any: Option<Death>,
+    /// The start of what it printed itself.
+    pub printed: String,
+    /// How many bytes it printed.
+    pub printed_bytes: u64,
+    /// How long it ran, in seconds.
+    pub seconds: f64,
+}
+
+impl Observed {
+    /// The log of a step, if it was begun.
+    pub fn step(&self, step: Step) -> Option<&crate::events::StepLog> {
+        let number = plan::steps().iter().position(|other| *other == step)?;
+        self.log.steps.get(number)
+    }
+
+    /// How a step died.
+    pub fn death(&self, step: Step) -> Option<&Death> {
+        let number = plan::steps().iter().position(|other| *other == step)?;
+        self.deaths.get(number)?.as_ref()
+    }
+}
+
+/// Runs the program `harness` in `folder`. Each run may take `time`.
+///
+/// # Errors
+/// When the program cannot be started or the plan cannot be written.
+pub fn run(
+    harness: &Path,
+    folder: &Path,
+    photons: u64,
+    time: Duration,
+) -> Result<Observed, CheckError> {
+    let start = Instant::now();
+    let plan_path = folder.join("plan.txt");
+    write(&plan_path, plan::file(photons).as_bytes())?;
+    let steps = plan::steps();
+    let mut observed = Observed { deaths: vec![None; steps.len()], ..Observed::default() };
+    let mut first = 0;
+    let mut deaths = 0;
+    while first < steps.len() {
+        observed.log.current = None;
+        observed.log.stack_overflowed = false;
+        let outcome = run_from(harness, folder, &plan_path, first, time, &mut observed.log)?;
+        observed.printed_bytes += outcome.printed_bytes;
+        if observed.printed.is_empty() {
+            observed.printed = outcome.printed.clone();
+        }
+        if observed.log.is_complete && !observed.log.is_broken {
+            break;
+        }
+        let death = death_of(&outcome, &observed.log, steps.get(first) == Some(&Step::Whole), time);
+        let Some(current) = observed.log.current else {
+            if observed.log.steps.is_empty() {
+                observed.before_any = Some(death);
+                break;
+            }
+            // It begins no step, though it did before.
+            observed.deaths[first] = Some(death);
+            first += 1;
+            continue;
+        };
+        let current = current.clamp(first, steps.len() - 1);
+        observed.log.is_broken = false;
+        observed.deaths[current] = Some(death);
+        deaths += 1;
+        first = current + 1;
+        if deaths >= MOST_DEATHS && first < steps.len() - 1 {
+            for left_out in &mut observed.deaths[first..steps.len() - 1] {
+                *left_out = Some(Death::LeftOut);
+            }
+            first = steps.len() - 1;
+        }
+    }
+    for (death, log) in observed.deaths.iter_mut().zip(&observed.log.steps) {
+        let exception = log.calls.iter().find_map(|call| call.exception.clone());
+        if let (None, Some(what)) = (&death, exception) {
+            *death = Some(Death::Exception { what });
+        }
+    }
+    observed.seconds = start.elapsed().as_secs_f64();
+    Ok(observed)
+}
+
+fn run_from(
+    harness: &Path,
+    folder: &Path,
+    plan_path: &Path,
+    first: usize,
+    time: Duration,
+    log: &mut Log,
+) -> Result<Outcome, CheckError> {
+    let program = Program {
+        command: vec![harness.into(), plan_path.into(), first.to_string().into()],
+        folder: folder.to_owned(),
+        environment: Vec::new(),
+        writes: false,
+    };
+    let limits = Limits { time, memory: MEMORY, file_blocks: 0 };
+    let whole = plan::steps().len() - 1;
+    let mut reader = Reader::default();
+    // One step begins after another; each has its own time.
+    let mut step_started = Instant::now();
+    let mut last_step = None;
+    program.run(limits, |piece| {
+        reader.read(piece, log);
+        if log.is_broken || log.is_complete {
+            return None;
+        }
+        if log.current != last_step {
+            (last_step, step_started) = (log.current, Instant::now());
+        }
+        let longest = if log.current == Some(whole) { time } else { PATIENCE.min(time) };
+        Some(longest.saturating_sub(step_started.elapsed()))
+    })
+}
+
+fn death_of(outcome: &Outcome, log: &Log, is_whole: bool, time: Duration) -> Death {
+    if log.stack_overflowed {
+        return Death::StackOverflow;
+    }
+    match outcome.ending {
+        Ending::TimeOut => {
+            let is_whole = is_whole || log.current == Some(plan::steps().len() - 1);
+            let seconds = if is_whole { time } else { PATIENCE.min(time) };
+            Death::TimeOut { seconds: seconds.as_secs() }
+        }
+        Ending::TooMuchOutput => Death::TooMuchOutput,
+        Ending::Code(code) => Death::Exit { code },
+        Ending::Signal(signal) => Death::Signal { signal },
+    }
+}

@@ -1,0 +1,184 @@
+//! The scattered rays that were seen, and the frames that explain their directions.
+
+use glam::{Mat3, Vec3};
+
+use crate::events::{Call, Trace};
+use crate::plan::{self, Step};
+use crate::run::Observed;
+use crate::statistics::{are_alike, is_uniform};
+
+/// Fewer directions tell nothing.
+pub const FEWEST: usize = 100;
+
+/// A scattered ray and the hit that it leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered {
+    /// The point hit.
+    pub hit: Vec3,
+    /// The ray's start.
+    pub from: Vec3,
+    /// Its direction, as it was handed to `Trace`.
+    pub direction: Vec3,
+    /// Whether the ray met the wall it left.
+    pub met_again: bool,
+}
+
+/// How tangent space is turned into the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// t, b and n are the columns, of length 1.
+    Normalised,
+    /// t and b as equations (7) and (8) have them.
+    AsWritten,
+    /// t as written, b of length 1.
+    HalfAsWritten,
+    /// n points to the other side.
+    Flipped,
+    /// t, b and n are the rows.
+    Transposed,
+    /// n is the first or second column.
+    OtherOrder,
+    /// There is no frame: the direction in tangent space is taken as it is.
+    None,
+}
+
+impl Frame {
+    /// Whether it is a fair reading of the handout.
+    pub fn is_fair(self) -> bool {
+        matches!(self, Self::Normalised | Self::AsWritten | Self::HalfAsWritten)
+    }
+}
+
+/// Directions over the grey floor and the grey walls, and what the floor says about the sampling.
+#[derive(Debug, Default)]
+pub struct Directions {
+    /// Over the floor with the normal (0, 0, 1).
+    pub floor: Vec<Scattered>,
+    /// Over every wall.
+    pub walls: Vec<(Vec3, Vec<Scattered>)>,
+    /// The frame under which the floor's directions follow the cosine; nothing if none does.
+    pub frame_of_floor: Option<Frame>,
+    /// The square of the sine of the floor's directions to the normal, in tangent space.
+    pub sines: Vec<f64>,
+    /// Whether the floor's directions are even around the normal.
+    pub is_even_around: bool,
+}
+
+impl Directions {
+    /// What was seen.
+    pub fn of(observed: &Observed) -> Self {
+        let scattered = |step: Step| {
+            let calls = observed.step(step).map_or(&[][..], |log| log.calls.as_slice());
+            calls.iter().filter_map(of_call).collect::<Vec<_>>()
+        };
+        let floor = scattered(Step::Floor);
+        let walls = plan::wall_normals();
+        let walls = walls.into_iter().map(|n| (n, scattered(Step::Wall(n)))).collect();
+        let mut directions = Self { floor, walls, ..Self::default() };
+        directions.judge_floor();
+        directions
+    }
+
+    fn judge_floor(&mut self) {
+        let candidates = frames(Vec3::Z);
+        // On the floor, several frames are the same.
+        let tried = candidates.iter().filter(|(frame, _)| {
+            matches!(frame, Frame::Normalised | Frame::Flipped | Frame::OtherOrder)
+        });
+        let mut chosen = &candidates[0];
+        for candidate in tried {
+            let [sines, around, above] = self.seen_from(Vec3::Z, &self.floor, candidate.1);
+            if above[0] > 0.999 && is_uniform(&sines) && is_uniform(&around) {
+                self.frame_of_floor = Some(candidate.0);
+                chosen = candidate;
+                break;
+            }
+        }
+        let [sines, around, _] = self.seen_from(Vec3::Z, &self.floor, chosen.1);
+        self.sines = sines;
+        self.is_even_around = is_uniform(&around);
+    }
+
+    /// In the tangent space of `matrix`: the squared sines to the normal, the angles around it as parts of the
+    /// circle, and, alone in its list, the part that is above the surface.
+    fn seen_from(&self, _normal: Vec3, rays: &[Scattered], matrix: Mat3) -> [Vec<f64>; 3] {
+        let inverse = matrix.inverse();
+        let local: Vec<_> = rays
+            .iter()
+            .filter(|ray| ray.direction.is_finite())
+            .map(|ray| (inverse * ray.direction).normalize_or_zero())
+            .collect();
+        let sines = local.iter().map(|v| f64::from(v.x * v.x + v.y * v.y).min(1.0)).collect();
+        let around =
+            local.iter().map(|v| f64::from(libm::atan2f(v.y, v.x)) / std::f64::consts::TAU + 0.5);
+        let around = around.collect();
+        let above = local.iter().filter(|v| v.z > 0.0).count() as f64 / local.len().max(1) as f64;
+        [sines, around, vec![above]]
+    }
+
+    /// Whether the directions over a wall are those over the floor, seen through `matrix`.
+    pub fn fits(&self, normal: Vec3, rays: &[Scattered], matrix: Mat3) -> bool {
+        if matrix.determinant().abs() < 1e-6 {
+            return false;
+        }
+        let [sines, around, above] = self.seen_from(normal, rays, matrix);
+        let is_above = above[0] > 0.999 || self.frame_of_floor.is_none();
+        is_above && are_alike(&sines, &self.sines) && (!self.is_even_around || is_uniform(&around))
+    }
+
+    /// The frame that explains the directions over a wall; fair ones come first.
+    pub fn frame_of(&self, normal: Vec3, rays: &[Scattered]) -> Option<Frame> {
+        let candidates = frames(normal);
+        let found = candidates.iter().find(|(_, matrix)| self.fits(normal, rays, *matrix));
+        found.map(|(frame, _)| *frame)
+    }
+}
+
+/// The first scattered ray of a call.
+fn of_call(call: &Call) -> Option<Scattered> {
+    let mut of_path = call.traces.iter().filter(|trace| trace.has_state);
+    let first: &Trace = of_path.next().filter(|trace| trace.met)?;
+    let second: &Trace = of_path.next()?;
+    Some(Scattered {
+        hit: first.hit(),
+        from: second.from,
+        direction: second.direction,
+        met_again: second.met,
+    })
+}
+
+/// All frames that are tried over a wall with this normal, with the matrix of each.
+pub fn frames(normal: Vec3) -> Vec<(Frame, Mat3)> {
+    let mut frames = Vec::new();
+    let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+    let axes: Vec<_> = axes.into_iter().filter(|axis| normal.dot(*axis).abs() < 0.9999).collect();
+    let as_written = |axis: Vec3| {
+        let t = normal.cross(axis);
+        (t, normal.cross(t))
+    };
+    let normalised = |axis: Vec3| {
+        let (t, b) = as_written(axis);
+        (t.normalize(), b.normalize())
+    };
+    for axis in &axes {
+        let (t, b) = normalised(*axis);
+        frames.push((Frame::Normalised, Mat3::from_cols(t, b, normal)));
+    }
+    for axis in &axes {
+        let (t, b) = as_written(*axis);
+        frames.push((Frame::AsWritten, Mat3::from_cols(t, b, normal)));
+        frames.push((Frame::HalfAsWritten, Mat3::from_cols(t, b.normalize(), normal)));
+    }
+    for axis in &axes {
+        for (t, b) in [normalised(*axis), as_written(*axis)] {
+            frames.push((Frame::Flipped, Mat3::from_cols(t, b, -normal)));
+            frames.push((Frame::Transposed, Mat3::from_cols(t, b, normal).transpose()));
+            frames.push((Frame::OtherOrder, Mat3::from_cols(t, normal, b)));
+            frames.push((Frame::OtherOrder, Mat3::from_cols(normal, t, b)));
+            frames.push((Frame::OtherOrder, Mat3::from_cols(normal, b, t)));
+            frames.push((Frame::OtherOrder, Mat3::from_cols(b, normal, t)));
+        }
+    }
+    frames.push((Frame::None, Mat3::IDENTITY));
+    frames
+}

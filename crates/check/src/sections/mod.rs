@@ -1,0 +1,163 @@
+//! What the submission does in each section of the handout, each by itself.
+
+pub mod directions;
+mod emission;
+mod sampling;
+mod scattering;
+mod storage;
+mod transformation;
+
+use serde::Serialize;
+
+use crate::plan::Step;
+use crate::run::Observed;
+
+/// The five titles of the handout's sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub enum Section {
+    /// How the photon leaves the light.
+    #[serde(rename = "Photon Emission")]
+    Emission,
+    /// Which hits are stored, and when the path ends.
+    #[serde(rename = "Photon Storage")]
+    Storage,
+    /// The roulette.
+    #[serde(rename = "Photon Scattering/Absorption")]
+    Scattering,
+    /// The direction in tangent space.
+    #[serde(rename = "Hemisphere Sampling")]
+    Sampling,
+    /// The direction in world space, and the ray along it.
+    #[serde(rename = "Hemisphere Ray Transformation")]
+    Transformation,
+}
+
+impl Section {
+    /// All, in the handout's order.
+    pub const ALL: [Self; 5] =
+        [Self::Emission, Self::Storage, Self::Scattering, Self::Sampling, Self::Transformation];
+
+    /// Its title in the handout.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Emission => "Photon Emission",
+            Self::Storage => "Photon Storage",
+            Self::Scattering => "Photon Scattering/Absorption",
+            Self::Sampling => "Hemisphere Sampling",
+            Self::Transformation => "Hemisphere Ray Transformation",
+        }
+    }
+}
+
+/// What a section's verdict is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// As the handout asks, and as the reference does it.
+    Right,
+    /// As the handout asks, in another fair reading than the reference's.
+    RightUnderAnotherReading,
+    /// Something else.
+    Wrong,
+    /// Not seen: another section keeps it from being reached.
+    NotReached,
+}
+
+/// Something wrong in a section.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fault {
+    /// The misreading's name, if it is a known one.
+    pub name: Option<&'static str>,
+    /// What was seen, with the numbers.
+    pub found: String,
+    /// What to look at in the code.
+    pub advice: &'static str,
+}
+
+/// The verdict on one section.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Which section.
+    pub section: Section,
+    /// The verdict.
+    pub status: Status,
+    /// The fair readings that it follows, where they are not the reference's.
+    pub readings: Vec<String>,
+    /// What is wrong.
+    pub faults: Vec<Fault>,
+    /// What costs nothing, but is worth saying; also why a section was not reached.
+    pub remarks: Vec<String>,
+}
+
+impl Verdict {
+    fn new(section: Section) -> Self {
+        let (readings, faults, remarks) = Default::default();
+        Self { section, status: Status::Right, readings, faults, remarks }
+    }
+
+    fn fault(&mut self, name: Option<&'static str>, found: String, advice: &'static str) {
+        self.faults.push(Fault { name, found, advice });
+    }
+
+    fn not_reached(&mut self, why: impl Into<String>) {
+        self.status = Status::NotReached;
+        self.remarks.push(why.into());
+    }
+
+    /// Sets the status by what was found; says how steps died, once for each way.
+    fn finish(mut self, observed: &Observed, function: &str, steps: &[Step]) -> Self {
+        let mut told: Vec<String> = Vec::new();
+        for step in steps {
+            let Some(death) = observed.death(*step) else { continue };
+            let sentence = death.sentence();
+            if !told.contains(&sentence) {
+                let found = format!("{function} {sentence} ({})", where_of(*step));
+                let advice = "Mend this first: what comes after it was not seen.";
+                self.faults.push(Fault { name: None, found, advice });
+                told.push(sentence);
+            }
+        }
+        if !self.faults.is_empty() {
+            self.status = Status::Wrong;
+        } else if self.status == Status::Right && !self.readings.is_empty() {
+            self.status = Status::RightUnderAnotherReading;
+        }
+        self
+    }
+}
+
+/// The scene of a step, in words.
+fn where_of(step: Step) -> String {
+    match step {
+        Step::Emit => "4,000 rays from a light".to_owned(),
+        Step::EmitCorner => "a point in the corner of the cube is drawn first".to_owned(),
+        Step::EmitOnSphere => "a point on the sphere is drawn first".to_owned(),
+        Step::EmitZero => "the point (0, 0, 0) is drawn first".to_owned(),
+        Step::StoreFirst => "one black wall, a path of length 1".to_owned(),
+        Step::StoreLater(path) => format!("one black wall, a path of length {path}"),
+        Step::StoreMiss => "a ray that meets nothing".to_owned(),
+        Step::Remaining(remaining) => {
+            format!("a closed white cube, remainingBounces = {remaining}")
+        }
+        Step::GrowPath => "a closed white cube, a path of length 1".to_owned(),
+        Step::Black => "a wall with P_r = 0".to_owned(),
+        Step::White => "a wall with P_r = 1".to_owned(),
+        Step::Colour(_) => "a coloured wall with P_r = 0.8".to_owned(),
+        Step::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
+        Step::Threshold(_) => "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned(),
+        Step::Floor => "a floor with P_r = 0.5".to_owned(),
+        Step::Wall(n) => format!("a wall with the normal ({}, {}, {})", n.x, n.y, n.z),
+        Step::Whole => "the handout's scene".to_owned(),
+    }
+}
+
+/// Judges all five sections.
+pub fn judge(observed: &Observed) -> Vec<Verdict> {
+    let emission = emission::judge(observed);
+    let storage = storage::judge(observed);
+    let scattering = scattering::judge(observed);
+    let directions = directions::Directions::of(observed);
+    let sampling = sampling::judge(observed, &directions);
+    let transformation = transformation::judge(observed, &directions);
+    vec![emission, storage, scattering, sampling, transformation]
+}

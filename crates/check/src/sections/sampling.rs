@@ -1,0 +1,164 @@
+//! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
+
+use super::directions::{Directions, FEWEST, Frame};
+use super::{Section, Verdict};
+use crate::plan::Step;
+use crate::run::Observed;
+use crate::statistics::{are_alike, is_uniform, mean};
+
+/// A law of the angle to the normal: u1 gives the square of its sine.
+struct Law {
+    name: &'static str,
+    what: &'static str,
+    advice: &'static str,
+    squared_sine: fn(f64) -> f64,
+}
+
+const LAWS: [Law; 7] = [
+    Law {
+        name: "uniform-hemisphere",
+        what: "directions are uniform over the hemisphere, not in proportion to the cosine",
+        advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of the disk, lifted \
+                 to the hemisphere.",
+        squared_sine: |u| 1.0 - u * u,
+    },
+    Law {
+        name: "no-square-root",
+        what: "r is u1, not its square root",
+        advice: "Equation (2) has r = sqrt(u1).",
+        squared_sine: |u| u * u / (u * u + 1.0 - u),
+    },
+    Law {
+        name: "z-without-root",
+        what: "z is 1 - u1, not its square root",
+        advice: "Equation (6) has z = sqrt(1 - u1).",
+        squared_sine: |u| u / (u + (1.0 - u) * (1.0 - u)),
+    },
+    Law {
+        name: "no-roots",
+        what: "r is u1 and z is 1 - u1, without the square roots",
+        advice: "Equations (2) and (6) have r = sqrt(u1) and z = sqrt(1 - u1).",
+        squared_sine: |u| u * u / (u * u + (1.0 - u) * (1.0 - u)),
+    },
+    Law {
+        name: "even-angle",
+        what: "the angle to the normal is even, as in theta = pi / 2 u1",
+        advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
+        squared_sine: |u| libm::sin(std::f64::consts::FRAC_PI_2 * u).powi(2),
+    },
+    Law {
+        name: "cosine-cubed",
+        what: "directions crowd around the normal, as those of n plus a point of the ball do",
+        advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
+        squared_sine: |u| 1.0 - u.sqrt(),
+    },
+    Law {
+        name: "number-used-again",
+        what: "u1 is always below P_r = 0.5: it is the roulette's number, used again",
+        advice: "Draw new random numbers for u1 and u2 after the roulette.",
+        squared_sine: |u| 0.5 * u,
+    },
+];
+
+const NEW_NUMBERS: &str = "Draw two random numbers in [0, 1), u1 and u2, for every direction.";
+
+pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
+    let mut verdict = Verdict::new(Section::Sampling);
+    let total = directions.floor.len();
+    if total < FEWEST {
+        if observed.death(Step::Floor).is_none() {
+            verdict.not_reached(format!(
+                "only {total} photons scatter from a floor with P_r = 0.5, so no direction can be judged"
+            ));
+        }
+        return verdict.finish(observed, "TracePhoton", &[Step::Floor]);
+    }
+    let not_finite = directions.floor.iter().filter(|ray| !ray.direction.is_finite()).count();
+    if not_finite > 0 {
+        let found =
+            format!("{not_finite} of {total} directions over a floor are not finite numbers");
+        let advice = "sqrt of a negative number is NaN: u1 must lie in [0, 1).";
+        verdict.fault(Some("not-finite"), found, advice);
+    } else if directions.frame_of_floor.is_none() {
+        judge_angles(directions, &mut verdict);
+    } else {
+        judge_pairs(directions, &mut verdict);
+    }
+    verdict.finish(observed, "TracePhoton", &[Step::Floor])
+}
+
+/// The angles to the normal, and around it, of directions that do not follow the cosine.
+fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
+    let rays = &directions.floor;
+    let total = rays.len();
+    let below = rays.iter().filter(|ray| ray.direction.z < 0.0).count();
+    let sines = &directions.sines;
+    if sines.iter().all(|sine| *sine < 1e-6) {
+        let found = format!("all {total} directions go along the normal");
+        let advice = "u1 is always 0: dividing two integers, rand() / RAND_MAX, gives 0.";
+        verdict.fault(Some("along-the-normal"), found, advice);
+        return;
+    }
+    if below > 0 && below < total {
+        let found = format!("{below} of {total} directions go below the floor, where none is due");
+        verdict.fault(
+            Some("below-the-surface"),
+            found,
+            "z = sqrt(1 - u1) is never negative, equation (6).",
+        );
+        return;
+    }
+    let even: Vec<_> = (0..20_000).map(|i| (f64::from(i) + 0.5) / 20_000.0).collect();
+    let law = LAWS.iter().find(|law| {
+        let due: Vec<_> = even.iter().map(|u| (law.squared_sine)(*u)).collect();
+        are_alike(sines, &due)
+    });
+    let cosines: Vec<_> = sines.iter().map(|sine| (1.0 - sine).max(0.0).sqrt()).collect();
+    let cosine = mean(&cosines);
+    if let Some(law) = law {
+        let found = format!(
+            "{}: the mean cosine to the normal is {cosine:.3}, where 0.667 is due",
+            law.what
+        );
+        verdict.fault(Some(law.name), found, law.advice);
+    } else if !is_uniform(sines) {
+        let found = format!(
+            "directions do not follow the cosine: its mean is {cosine:.3}, where 0.667 is due"
+        );
+        let advice = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).";
+        verdict.fault(None, found, advice);
+    }
+    if !directions.is_even_around {
+        let (x, y): (Vec<_>, Vec<_>) =
+            rays.iter().map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y))).unzip();
+        let found = format!(
+            "directions are not even around the normal: the means of x and y are {:.3} and {:.3}, where 0 is due",
+            mean(&x),
+            mean(&y)
+        );
+        let advice = "Equation (3): theta = 2 pi u2, and u2 is in [0, 1).";
+        verdict.fault(Some("not-even-around"), found, advice);
+    }
+}
+
+/// Whether the angle to the normal and that around it are independent.
+fn judge_pairs(directions: &Directions, verdict: &mut Verdict) {
+    let angle = |ray: &super::directions::Scattered| {
+        let d = ray.direction;
+        // Around whichever axis the floor's directions lie.
+        match directions.frame_of_floor {
+            Some(Frame::OtherOrder) => None,
+            _ => Some(f64::from(libm::atan2f(d.y, d.x))),
+        }
+    };
+    let (mut near, mut far) = (Vec::new(), Vec::new());
+    for (ray, sine) in directions.floor.iter().zip(&directions.sines) {
+        if let Some(angle) = angle(ray) {
+            if *sine < 0.5 { near.push(angle) } else { far.push(angle) }
+        }
+    }
+    if !are_alike(&near, &far) {
+        let found = "the angle around the normal depends on the angle to it".to_owned();
+        verdict.fault(Some("same-number-twice"), found, NEW_NUMBERS);
+    }
+}

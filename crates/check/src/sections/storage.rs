@@ -1,0 +1,282 @@
+//! Photon Storage: which hits are stored, what is stored, and when the path ends.
+
+use glam::Vec3;
+
+use super::{Section, Verdict};
+use crate::events::{Call, Trace};
+use crate::plan::{INTENSITY, Step};
+use crate::run::Observed;
+
+/// A position this far off the surface still shows the same dots.
+const OFF_SURFACE: f32 = 7.1e-3;
+
+const STEPS: [Step; 9] = [
+    Step::StoreFirst,
+    Step::StoreLater(2),
+    Step::StoreLater(3),
+    Step::StoreMiss,
+    Step::Remaining(-1),
+    Step::Remaining(0),
+    Step::Remaining(1),
+    Step::Remaining(1000),
+    Step::GrowPath,
+];
+
+const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' grow with every \
+    call of TracePhoton.";
+
+pub(super) fn judge(observed: &Observed) -> Verdict {
+    let mut verdict = Verdict::new(Section::Storage);
+    let calls =
+        |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
+    let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
+    let asks = STEPS.iter().any(|step| calls(*step).iter().any(|call| call.rays() > 0));
+    if !is_seen {
+        if STEPS.iter().all(|step| observed.death(*step).is_none()) {
+            verdict.not_reached("TracePhoton was not called");
+        }
+    } else if !asks && STEPS.iter().all(|step| observed.death(*step).is_none()) {
+        let found = "TracePhoton never calls storedScene->Trace with a state".to_owned();
+        let advice =
+            "Call storedScene->Trace(photonRay, &state) below the line that sets currentIOR.";
+        verdict.fault(None, found, advice);
+    } else {
+        judge_first(calls(Step::StoreFirst), &mut verdict);
+        judge_later(&calls, &mut verdict);
+        judge_growth(calls(Step::GrowPath), &mut verdict);
+        judge_limit(&calls, &mut verdict);
+        judge_values(&calls, &mut verdict);
+        let missed = calls(Step::StoreMiss).iter().filter(|call| !call.stored.is_empty()).count();
+        if missed > 0 {
+            let found = "a photon is stored though its ray meets nothing".to_owned();
+            verdict.fault(None, found, "End TracePhoton where Trace returns false.");
+        }
+    }
+    if STEPS.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
+        verdict.remarks.push(
+            "TracePhoton takes other arguments than the framework's, so paths that start with two elements \
+             were not tried"
+                .to_owned(),
+        );
+    }
+    verdict.finish(observed, "TracePhoton", &STEPS)
+}
+
+fn judge_first(calls: &[Call], verdict: &mut Verdict) {
+    let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
+    if stored > 0 {
+        let found = format!(
+            "{stored} photons are stored in {} calls where the path has a size of 1: they come directly \
+             from the light",
+            calls.len()
+        );
+        verdict.fault(Some("direct-stored"), found, ONLY_LATER);
+    }
+}
+
+fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
+    for path in [2, 3] {
+        let calls = calls(Step::StoreLater(path));
+        let with_hit: Vec<_> = calls.iter().filter(|call| call.hits().next().is_some()).collect();
+        let none = with_hit.iter().filter(|call| call.stored.is_empty()).count();
+        if none > 0 {
+            let found = format!(
+                "nothing is stored in {none} of {} calls where the path has a size of {path} and the wall \
+                 is black",
+                with_hit.len()
+            );
+            let advice = "Insert a photon into photonMap where path.size() is larger than 1, before the roulette \
+                          decides.";
+            verdict.fault(Some("not-stored"), found, advice);
+            return;
+        }
+        let twice = with_hit.iter().filter(|call| repeats(call)).count();
+        if twice > 0 {
+            let found =
+                format!("a photon is stored more than once in {twice} of {} calls", with_hit.len());
+            verdict.fault(Some("stored-twice"), found, "Insert each photon once.");
+            return;
+        }
+    }
+}
+
+/// Whether one hit is stored more often than it happened.
+fn repeats(call: &Call) -> bool {
+    let near = |hit: &Trace, position: Vec3| hit.hit().abs_diff_eq(position, OFF_SURFACE);
+    call.hits().any(|hit| {
+        let stored = call.stored.iter().filter(|stored| near(hit, stored.position)).count();
+        let happened = call.hits().filter(|other| near(other, hit.hit())).count();
+        stored > happened
+    })
+}
+
+fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
+    let hits: usize = calls.iter().map(|call| call.hits().count().saturating_sub(1)).sum();
+    if hits == 0 {
+        return;
+    }
+    let has_fault = |verdict: &Verdict, name| verdict.faults.iter().any(|f| f.name == Some(name));
+    let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
+    let first_stored = calls.iter().filter(|call| stores_first(call)).count();
+    if first_stored > 0 && !has_fault(verdict, "direct-stored") {
+        let found = format!(
+            "the first hit of the path is stored in {first_stored} of {} calls: it comes directly from the \
+             light",
+            calls.len()
+        );
+        verdict.fault(Some("direct-stored"), found, ONLY_LATER);
+    }
+    if has_fault(verdict, "direct-stored") || has_fault(verdict, "not-stored") {
+        return;
+    }
+    if stored == 0 {
+        let found = format!(
+            "no photon is stored that bounces in a closed cube, in {hits} later hits: the path does not grow"
+        );
+        let advice = "Add an element to 'path' before TracePhoton calls itself.";
+        verdict.fault(Some("path-does-not-grow"), found, advice);
+        return;
+    }
+    let second = calls.iter().filter(|call| call.hits().count() > 1);
+    let without = second.clone().filter(|call| lacks_second(call)).count();
+    if without > 0 {
+        let found = format!(
+            "the second hit of the path is not stored in {without} of {} calls; the first that is stored comes \
+             later",
+            second.count()
+        );
+        verdict.fault(Some("stored-too-late"), found, ONLY_LATER);
+    } else if stored < hits {
+        let found = format!("{stored} photons are stored in {hits} hits that have bounced");
+        verdict.fault(None, found, ONLY_LATER);
+    } else if stored > hits && !has_fault(verdict, "stored-twice") {
+        let found = format!("{stored} photons are stored, and only {hits} hits have bounced");
+        verdict.fault(Some("stored-twice"), found, "Insert each photon once.");
+    }
+}
+
+/// At the place of hit number `index`, from 0: how many photons are stored, and how many hits there have bounced.
+fn stored_and_due(call: &Call, index: usize) -> Option<(usize, usize)> {
+    let place = call.hits().nth(index)?.hit();
+    let near = |position: Vec3| place.abs_diff_eq(position, OFF_SURFACE);
+    let stored = call.stored.iter().filter(|stored| near(stored.position)).count();
+    // Without an offset, several hits lie in one place.
+    let due = call.hits().skip(1).filter(|hit| near(hit.hit())).count();
+    Some((stored, due))
+}
+
+fn stores_first(call: &Call) -> bool {
+    stored_and_due(call, 0).is_some_and(|(stored, due)| stored > due)
+}
+
+fn lacks_second(call: &Call) -> bool {
+    stored_and_due(call, 1).is_some_and(|(stored, due)| stored < due)
+}
+
+fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
+    let below: usize = calls(Step::Remaining(-1)).iter().map(|call| call.stored.len()).sum();
+    if below > 0 {
+        let found = format!("{below} photons are stored with remainingBounces = -1");
+        let advice = "End TracePhoton first of all where remainingBounces is less than 0.";
+        verdict.fault(Some("no-limit"), found, advice);
+    }
+    let advice = "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.";
+    let at_zero = calls(Step::Remaining(0));
+    let hits_at_zero: usize = at_zero.iter().map(|call| call.hits().count()).sum();
+    let stored_at_zero: usize = at_zero.iter().map(|call| call.stored.len()).sum();
+    let hits_at_one: usize = calls(Step::Remaining(1)).iter().map(|call| call.hits().count()).sum();
+    if !at_zero.is_empty() && hits_at_one > 0 && hits_at_zero == 0 {
+        let found = "with remainingBounces = 0, no ray is traced; one more is due".to_owned();
+        verdict.fault(Some("bounce-off-by-one"), found, advice);
+        return;
+    }
+    let stores = calls(Step::StoreLater(2)).iter().any(|call| !call.stored.is_empty());
+    if hits_at_zero > 0 && stored_at_zero == 0 && stores {
+        let found = "with remainingBounces = 0, a hit is not stored".to_owned();
+        verdict.fault(Some("bounce-off-by-one"), found, advice);
+        return;
+    }
+    if hits_at_zero > at_zero.len() && verdict.faults.is_empty() {
+        let found = format!(
+            "with remainingBounces = 0, a path has {} hits; 1 is due",
+            hits_at_zero.div_ceil(at_zero.len())
+        );
+        let advice = "Hand remainingBounces - 1 to the next call, and end where it is less than 0.";
+        verdict.fault(Some("no-limit"), found, advice);
+        return;
+    }
+    let counts: Vec<_> =
+        calls(Step::Remaining(1000)).iter().map(|call| call.hits().count()).collect();
+    let missed = calls(Step::Remaining(1000))
+        .iter()
+        .any(|call| call.traces.iter().any(|trace| trace.has_state && !trace.met));
+    let Some(count) = counts.first().copied() else { return };
+    let all_same = counts.iter().all(|other| *other == count);
+    // One hit alone is a path that never scatters, which is another section's.
+    if all_same && !missed && (2..1001).contains(&count) {
+        let found = format!(
+            "all paths end after {count} hits in a closed white cube where remainingBounces starts with \
+             1000; 1001 are due"
+        );
+        let (name, advice) = match count {
+            2 => (
+                "no-recursion",
+                "Call TracePhoton for the scattered ray in every call, not only in the first.",
+            ),
+            1000 => ("bounce-off-by-one", advice),
+            _ => ("fewer-bounces", "Let remainingBounces alone decide when a path ends."),
+        };
+        verdict.fault(Some(name), found, advice);
+    } else if all_same && count > 1001 {
+        let found = format!("paths have {count} hits where 1001 are due");
+        verdict.fault(Some("no-limit"), found, "Hand remainingBounces - 1 to the next call.");
+    }
+}
+
+/// What the stored photons hold, at a wall that absorbs everything.
+fn judge_values<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
+    let mut total = 0;
+    let mut elsewhere = None;
+    let (mut off, mut intensity, mut reversed, mut unset, mut not_unit) = (0, 0, 0, 0, 0);
+    for call in [2, 3].into_iter().flat_map(|path| calls(Step::StoreLater(path))) {
+        let Some(hit) = call.hits().next() else { continue };
+        for stored in &call.stored {
+            total += 1;
+            let distance = (stored.position - hit.hit()).length();
+            if distance.is_nan() || distance > OFF_SURFACE {
+                elsewhere.get_or_insert((stored.position, hit.hit()));
+            } else if distance > 1e-4 {
+                off += 1;
+            }
+            if !(stored.intensity - INTENSITY).abs().cmple(glam::Vec3::splat(1e-6)).all() {
+                intensity += 1;
+            }
+            let back = -hit.direction.normalize();
+            let direction = stored.to_light;
+            if !direction.is_finite() || direction.abs_diff_eq(-Vec3::Z, 1e-6) {
+                unset += 1;
+            } else if direction.normalize_or_zero().abs_diff_eq(-back, 1e-3) {
+                reversed += 1;
+            } else if !direction.normalize_or_zero().abs_diff_eq(back, 1e-3) {
+                unset += 1;
+            } else if (direction.length() - 1.0).abs() > 1e-3 {
+                not_unit += 1;
+            }
+        }
+    }
+    if let Some((stored, hit)) = elsewhere {
+        let found = format!("a photon is stored at {stored}, and its ray met the wall at {hit}");
+        let advice = "The position is state.intersectionRay.GetRayPosition(state.intersectionT).";
+        verdict.fault(Some("wrong-position"), found, advice);
+    }
+    let mut remark = |count: usize, text: &str| {
+        if count > 0 {
+            verdict.remarks.push(format!("{text} ({count} of {total} photons). It costs nothing."));
+        }
+    };
+    remark(off, "positions are slightly off the surface");
+    remark(intensity, "intensity is not lightIntensity");
+    remark(reversed, "toLightRay points along the photon's way, not against it");
+    remark(unset, "toLightRay is not set to the opposite of the photon's ray");
+    remark(not_unit, "toLightRay's direction is not a unit vector");
+}

@@ -1,0 +1,242 @@
+//! Hemisphere Ray Transformation: directions over walls, and where the scattered ray starts.
+
+use glam::Vec3;
+
+use super::directions::{Directions, FEWEST, Frame, Scattered};
+use super::{Section, Verdict};
+use crate::plan::{Step, wall_normals};
+use crate::run::Observed;
+
+/// A shorter offset is hardly one: some photons meet the surface they left.
+const SHORTEST: f32 = 5e-7;
+/// A longer offset moves photons so far that some are lost.
+const LONGEST: f32 = 2e-3;
+/// A ray that starts farther than this from the hit starts somewhere else.
+const ELSEWHERE: f32 = 5e-2;
+/// So many of the scattered photons may meet their surface again before it is a fault.
+const FEW: f64 = 1e-3;
+
+const COLUMNS: &str =
+    "The columns of the matrix are t, b and n, in this order; glm::mat3(t, b, n) takes columns.";
+const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the absolute value \
+    with your threshold.";
+
+pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
+    let mut verdict = Verdict::new(Section::Transformation);
+    let steps: Vec<_> = wall_normals().into_iter().map(Step::Wall).collect();
+    let seen = directions.walls.iter().filter(|(_, rays)| rays.len() >= FEWEST).count();
+    if seen == 0 {
+        if steps.iter().all(|step| observed.death(*step).is_none()) {
+            verdict.not_reached("no photon scatters from a wall with P_r = 0.5");
+        }
+        return verdict.finish(observed, "TracePhoton", &steps);
+    }
+    judge_frames(directions, &mut verdict);
+    judge_start(directions, &mut verdict);
+    verdict.finish(observed, "TracePhoton", &steps)
+}
+
+fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
+    let sampling_is_finite = directions.floor.iter().all(|ray| ray.direction.is_finite());
+    let sampling_spreads = directions.sines.iter().any(|sine| *sine > 1e-6);
+    let mut frames: Vec<(Vec3, Option<Frame>)> = Vec::new();
+    for (normal, rays) in directions.walls.iter().filter(|(_, rays)| rays.len() >= FEWEST) {
+        let total = rays.len();
+        let is_along_x = normal.x.abs() > 0.999;
+        let not_finite = rays.iter().filter(|ray| !ray.direction.is_finite()).count();
+        if not_finite > 0 {
+            if sampling_is_finite {
+                let found = format!(
+                    "{not_finite} of {total} directions are not finite numbers where the normal is {normal}"
+                );
+                let (name, advice) = if is_along_x {
+                    (Some("nan-frame"), NAN_WALL)
+                } else {
+                    (None, "Look for a vector of length 0 that is normalised.")
+                };
+                verdict.fault(name, found, advice);
+                return;
+            }
+            continue;
+        }
+        let along = rays
+            .iter()
+            .filter(|ray| ray.direction.normalize_or_zero().dot(*normal).abs() > 0.999_999)
+            .count();
+        let all_but_few = along as f64 > 0.95 * total as f64;
+        if sampling_spreads && all_but_few {
+            let found = format!(
+                "{along} of {total} photons leave along the normal where it is {normal}: t and b have no length"
+            );
+            let name = is_along_x.then_some("no-absolute-value");
+            let advice = if normal.x < -0.999 { WALL } else { PARALLEL };
+            verdict.fault(name, found, advice);
+            return;
+        }
+        if sampling_spreads {
+            frames.push((*normal, directions.frame_of(*normal, rays)));
+        }
+    }
+    let unfair: Vec<_> =
+        frames.iter().filter(|(_, frame)| !frame.is_some_and(Frame::is_fair)).copied().collect();
+    if unfair.is_empty() {
+        judge_fair(&frames, verdict);
+        return;
+    }
+    let most = [Frame::Flipped, Frame::Transposed, Frame::None, Frame::OtherOrder]
+        .into_iter()
+        .max_by_key(|frame| unfair.iter().filter(|(_, other)| *other == Some(*frame)).count());
+    let most = most.filter(|frame| {
+        let those = unfair.iter().filter(|(_, other)| *other == Some(*frame)).count();
+        2 * those > unfair.len()
+    });
+    let (normal, rays) = directions
+        .walls
+        .iter()
+        .find(|(normal, _)| *normal == unfair[0].0)
+        .expect("it is one of the walls");
+    let seen = seen(*normal, rays);
+    let (name, what, advice) = match most {
+        Some(Frame::Flipped) => (
+            Some("flipped-normal"),
+            "photons leave below the surface they hit",
+            "Use the normal of state.ComputeNormal() as it is, in the matrix's third column.",
+        ),
+        Some(Frame::Transposed) => (
+            Some("transposed-frame"),
+            "t, b and n are the rows of the matrix, not its columns",
+            COLUMNS,
+        ),
+        Some(Frame::None) => (
+            Some("no-transformation"),
+            "directions are those of tangent space, whatever the normal",
+            "Multiply the matrix of t, b and n by the sampled direction before you trace the ray.",
+        ),
+        Some(Frame::OtherOrder) => (
+            Some("other-column-order"),
+            "the normal is not the third column of the matrix",
+            COLUMNS,
+        ),
+        _ => (None, "directions are not those of the hemisphere around the normal", FRAME),
+    };
+    verdict.fault(name, format!("{what}: {seen}"), advice);
+}
+
+const NAN_WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, t is (0, 0, 0), and \
+    normalising it gives NaN: compare the absolute value with your threshold.";
+const PARALLEL: &str = "Where the normal is close to parallel with (1, 0, 0), take another vector, such as (0, 1, 0), in equation (7).";
+const FRAME: &str = "t = n x (1, 0, 0) and b = n x t, equations (7) and (8); the matrix with the columns t, b and n turns \
+    the sample into world space.";
+
+/// The mean direction over a wall, and how many go below it.
+fn seen(normal: Vec3, rays: &[Scattered]) -> String {
+    let finite = || rays.iter().map(|ray| ray.direction.normalize_or_zero());
+    let mean = finite().sum::<Vec3>() / rays.len() as f32;
+    let below = finite().filter(|direction| direction.dot(normal) < 0.0).count();
+    let due = normal * (2.0 / 3.0);
+    format!(
+        "where the normal is {}, the mean direction is {} and about {} is due; {below} of {} go below the surface",
+        short(normal),
+        short(mean),
+        short(due),
+        rays.len()
+    )
+}
+
+fn short(v: Vec3) -> String {
+    format!("({:.2}, {:.2}, {:.2})", v.x, v.y, v.z)
+}
+
+fn judge_fair(frames: &[(Vec3, Option<Frame>)], verdict: &mut Verdict) {
+    let has = |frame: Frame| frames.iter().any(|(_, other)| *other == Some(frame));
+    if has(Frame::AsWritten) {
+        verdict
+            .readings
+            .push("t and b as equations (7) and (8) have them, not normalised".to_owned());
+    } else if has(Frame::HalfAsWritten) {
+        verdict.readings.push("t as equation (7) has it, b normalised".to_owned());
+    }
+}
+
+/// Where scattered rays start, and whether they meet the surface they leave.
+fn judge_start(directions: &Directions, verdict: &mut Verdict) {
+    let walls = directions.walls.iter().map(|(normal, rays)| (*normal, rays));
+    let all = walls.chain([(Vec3::Z, &directions.floor)]);
+    let mut offsets = Vec::new();
+    let (mut again, mut above) = (0_usize, 0_usize);
+    let mut elsewhere: Option<(Vec3, Vec3)> = None;
+    for (normal, ray) in all.flat_map(|(normal, rays)| rays.iter().map(move |ray| (normal, ray))) {
+        let offset = ray.from - ray.hit;
+        let direction = ray.direction.normalize_or_zero();
+        if offset.length() > ELSEWHERE || !offset.is_finite() {
+            elsewhere.get_or_insert((ray.from, ray.hit));
+            continue;
+        }
+        offsets.push((offset, normal, direction));
+        // A ray that goes down meets the surface, wherever it starts.
+        if direction.dot(normal) > 1e-3 {
+            above += 1;
+            again += usize::from(ray.met_again);
+        }
+    }
+    if let Some((from, hit)) = elsewhere {
+        let found =
+            format!("a scattered ray starts at {from}, and the photon hit the wall at {hit}");
+        let advice = "Start the new ray at the point that was hit.";
+        verdict.fault(Some("other-start"), found, advice);
+        return;
+    }
+    let lengths = offsets.iter().map(|(offset, ..)| offset.length());
+    let mut lengths: Vec<_> = lengths.collect();
+    lengths.sort_unstable_by(f32::total_cmp);
+    let Some(length) = lengths.get(lengths.len() / 2).copied() else { return };
+    if again as f64 > FEW * above as f64 {
+        let found = format!(
+            "{again} of {above} scattered photons met the very wall they left: the offset is {}",
+            if length < SHORTEST {
+                "missing or too short".to_owned()
+            } else {
+                format!("{length:.0e}")
+            }
+        );
+        let advice = "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the normal, as \
+                      the framework does for shadow rays.";
+        verdict.fault(Some("no-offset"), found, advice);
+        return;
+    }
+    if length < SHORTEST {
+        verdict.remarks.push(
+            "the scattered ray starts at the point that was hit, and still does not meet the surface it leaves"
+                .to_owned(),
+        );
+        return;
+    }
+    let aside = |axis: &dyn Fn(Vec3, Vec3) -> Vec3| {
+        offsets.iter().all(|(offset, normal, direction)| {
+            let axis = axis(*normal, *direction);
+            (*offset - offset.dot(axis) * axis).length() < 0.05 * length + 3e-7
+        })
+    };
+    let rounded = rounded(length);
+    let along = if aside(&|normal, _| normal) {
+        if (rounded - 1e-5).abs() < 1e-6 {
+            return;
+        }
+        "along the normal"
+    } else if aside(&|_, direction| direction) {
+        "along the new direction"
+    } else {
+        "off the point that was hit"
+    };
+    verdict.readings.push(format!("offset {rounded:e} {along}"));
+    if length > LONGEST {
+        verdict.remarks.push(format!(
+            "the offset of {rounded:e} is large: near edges, photons start behind another surface; 1e-5 is enough"
+        ));
+    }
+}
+
+/// One digit is what a student wrote; the rest is rounding.
+fn rounded(length: f32) -> f32 {
+    format!("{length:.0e}").parse().unwrap_or(length)
+}
