@@ -1,6 +1,7 @@
 //! The program `photon-mapping`: a file for every verb, each of which parses, calls and prints.
 
 mod beside_expected;
+mod check;
 mod compare;
 mod error;
 mod expect;
@@ -43,6 +44,8 @@ struct Cli {
 enum Command {
     /// Trace the photons, write their list, and draw the picture
     Render(Box<render::RenderArgs>),
+    /// Compile and run a submission's two C++ files, and judge each section of the handout
+    Check(check::CheckArgs),
     /// Hold a photon list (or a picture) against the reference
     Compare(Box<compare::CompareArgs>),
     /// Tell the whole story of one photon
@@ -83,6 +86,7 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Expect(arguments)) => expect::run(&arguments),
+        Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
         Some(Command::Explore(arguments)) => explore::run(&arguments),
