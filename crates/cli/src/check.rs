@@ -16,11 +16,9 @@ use super::{progress, values};
 
 /// The options of `check`.
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Example: photon-mapping check alice/ bob/\n\
+#[command(after_help = "Example: photon-mapping check alice/ bob/\n\
                   This runs code from strangers. Use a container or an account of its own.\n\
-                  Exit codes: 0 all submissions were checked; 2 one could not be."
-)]
+                  Exit codes: 0 all submissions were checked; 2 one could not be.")]
 pub struct CheckArgs {
     /// Folders anywhere above PointLight.cpp and PhotonMappingRenderer.cpp, or one of these files
     #[arg(value_name = "SUBMISSION", required = true)]
@@ -78,8 +76,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
-    let settings =
-        Settings { time: Duration::from_secs(arguments.timeout), ..Settings::default() };
+    let settings = Settings { time: Duration::from_secs(arguments.timeout), ..Settings::default() };
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
     let reports: Vec<Result<Report, _>> = paths
         .par_iter()
