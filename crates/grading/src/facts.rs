@@ -86,8 +86,13 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
             !is_repeated && !is_identical,
             Weight::Fault,
-            "Scattered rays hit the triangle they leave: start them a little above the surface, or \
-             check that no photon is inserted twice.",
+            if observation.repeats_by_rounding || observation.identical.is_none() {
+                "Scattered rays hit the triangle they leave: start them a little above the surface, or \
+                 check that no photon is inserted twice."
+            } else {
+                "Scattered rays come back at once to the surface they leave: check that directions are \
+                 in the hemisphere over the normal, and that rays start above the surface."
+            },
         ),
     ];
     if let Some(decimals) = observation.few_decimals {
