@@ -1,5 +1,8 @@
 //! What a list of photons shows: counted by place, and looked over for what cannot be right.
 
+use std::collections::HashSet;
+
+use super::crowding::crowding;
 use super::places::{Place, Places};
 use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
@@ -111,6 +114,11 @@ pub struct Observation {
     /// Whether most of those that are repeated lie where another one does up to the rounding of an f32, and
     /// positions have enough decimals to tell.
     pub repeats_by_rounding: bool,
+    /// The chance, at most, that photons lie as crowded as they do.
+    pub crowding: f64,
+    /// If the list has the numbers of photons and bounces: of the records after a path's first, how many there are,
+    /// and how many have no record of the bounce before.
+    pub gaps: Option<[u64; 2]>,
     /// The same without those that are repeated.
     pub distinct: Counts,
     /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
@@ -175,11 +183,20 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         }
         by_bounce
     });
+    let is_on_facet = |place: &Place| matches!(place, Place::Cell { .. } | Place::Corner { .. });
+    let on_facets: Vec<DVec3> = (list.records.iter().zip(&located))
+        .filter(|(_, place)| is_on_facet(place))
+        .map(|(record, _)| record.position.as_dvec3())
+        .collect();
+    let unit = decimals.map_or(0.0, |decimals| 10_f64.powi(-decimals));
+    let gaps = (list.columns.photon && list.columns.bounce).then(|| gaps(&list.records));
     let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
     Observation {
         records: list.records.len() as u64,
         repeated: count(Repeat::Closely) + count(Repeat::ByRounding) + identical,
         repeats_by_rounding,
+        crowding: crowding(&on_facets, unit),
+        gaps,
         identical: decimals.is_none().then_some(identical),
         counts,
         distinct,
@@ -190,6 +207,16 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         by_bounce,
         bounces,
     }
+}
+
+/// How many of `records` come after a path's first, and how many of these lack the bounce before.
+fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
+    let first = records.iter().map(|record| record.bounce).min().unwrap_or_default();
+    let known: HashSet<_> = records.iter().map(|record| (record.photon, record.bounce)).collect();
+    let later = records.iter().filter(|record| record.bounce > first);
+    let without =
+        later.clone().filter(|record| !known.contains(&(record.photon, record.bounce - 1)));
+    [later.count() as u64, without.count() as u64]
 }
 
 /// The intensity is the light's colour, which is white, divided by the photons it sends out.
