@@ -50,8 +50,8 @@ Several submissions: text and JSON go to one output; gradescope and html write a
 the folder --out, html also an index.html.
 
 Policy: a JSON object that gives scores, each of which may be left out, by default
-  { \"correct\": 4, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \"unreadable\": 0, \"misreadings\": {} }
-'plausible' is for incorrect photons that are finite, on surfaces and indirect only; 'misreadings' gives \
+  { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \"unreadable\": 0, \"misreadings\": {} }
+'undecided' is for lists with too few photons to tell: look at them yourself. 'plausible' is for incorrect photons that are finite, on surfaces and indirect only; 'misreadings' gives \
 incorrect ones with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }.
 
 Exit codes: 0 graded, whatever the grades; 2 could not be carried out.")]

@@ -1,7 +1,8 @@
 //! What the bounces of a list say, where it has them.
 
 use super::judge_list::{Expectations, LEEWAY, SIGNIFICANCE, joined};
-use super::observation::Observation;
+use super::observation::{BOUNCES, Counts, Observation};
+use super::places::Places;
 use super::signature::{Signature, classes};
 use super::statistics::{corrected, fit, grouped};
 use super::verdict::{Finding, Weight};
@@ -52,6 +53,90 @@ pub fn bounce_findings(
             },
         });
     }
+    findings.extend(longest_path([first, last], allowed, size, signature));
+    // Where a fair reading leaves photons, it leaves them after every bounce.
+    let fair = expectations.signatures.fair.iter();
+    let p_value = fair
+        .map(|signature| of_each_bounce(by_bounce, allowed, size, emitted, signature, places))
+        .fold(0.0, f64::max);
+    let passed = p_value >= SIGNIFICANCE;
+    // A column that counts otherwise is no fault: positions alone are asked for.
+    let counts_hits = first <= LAST_FIRST_BOUNCE;
+    findings.push(Finding {
+        check: BOUNCES_BY_PLACE,
+        section: Some(Section::PhotonScatteringAbsorption.title()),
+        expected: "on every facet as many photons of every bounce as the scene leaves there"
+            .to_owned(),
+        found: if passed { "as many as expected" } else { "not as many as expected" }.to_owned(),
+        p_value: Some(p_value),
+        passed,
+        weight: if counts_hits { Weight::Fault } else { Weight::Remark },
+        advice: match (passed, counts_hits) {
+            (true, _) => "",
+            (_, true) => "Check that every hit draws new random numbers, that the chance to scatter is that of \
+                the material that was hit, and how your list counts bounces.",
+            (_, false) => "Check how your list counts bounces.",
+        }
+        .into(),
+    });
+    findings
+}
+
+/// The check of each bounce's photons by place.
+pub const BOUNCES_BY_PLACE: &str = "bounces";
+/// Hits are counted from 0 or from 1, and the second is the first that is stored: so the first bounce of a list is 2
+/// at most.
+const LAST_FIRST_BOUNCE: u16 = 2;
+/// By which part of itself the number of long paths may be smaller: beyond the bounces of a signature, they are taken
+/// to end at the same rate.
+const LEEWAY_OF_LONG_PATHS: f64 = 0.15;
+
+/// The fault that no path has more bounces than the list has, where many should.
+fn longest_path(
+    [first, last]: [u16; 2],
+    allowed: usize,
+    size: f64,
+    signature: &Signature,
+) -> Option<Finding> {
+    let seen = usize::from(last - first) + 1;
+    let beyond = seen.checked_sub(BOUNCES)?;
+    if first > LAST_FIRST_BOUNCE || seen >= allowed {
+        return None;
+    }
+    let of_bounce = |bounce: usize| signature.by_bounce[bounce].iter().sum::<f64>();
+    let all = signature.classes.iter().sum::<f64>();
+    let later = (all - (0..BOUNCES).map(of_bounce).sum::<f64>()).max(0.0);
+    let ratio = later / (later + of_bounce(BOUNCES - 1));
+    let expected = size * later * (1.0 - ratio) * ratio.powi(beyond as i32);
+    let p_value = (-expected * (1.0 - LEEWAY_OF_LONG_PATHS)).exp();
+    let passed = p_value >= SIGNIFICANCE;
+    Some(Finding {
+        check: "longest path",
+        section: Some(Section::PhotonStorage.title()),
+        expected: format!("about {expected:.0} paths of more than {seen} stored photons"),
+        found: format!("paths of up to {seen} stored photons"),
+        p_value: Some(p_value),
+        passed,
+        weight: Weight::Fault,
+        advice: if passed {
+            "".into()
+        } else {
+            "Paths end too early: look for a limit of bounces other than the one that is asked for. If it was \
+             meant, grade with --max-bounces."
+                .into()
+        },
+    })
+}
+
+/// The chance that the photons of each bounce lie where they do by `signature`.
+fn of_each_bounce(
+    by_bounce: &[Counts],
+    allowed: usize,
+    size: f64,
+    emitted: Option<f64>,
+    signature: &Signature,
+    places: &Places,
+) -> f64 {
     let mut smallest = 1.0_f64;
     let mut tests = 0;
     for (bounce, counts) in by_bounce.iter().enumerate().take(allowed) {
@@ -65,19 +150,5 @@ pub fn bounce_findings(
         smallest = smallest.min(fit.p_value);
         tests += 1;
     }
-    let p_value = corrected(smallest, tests.max(1));
-    let passed = p_value >= SIGNIFICANCE;
-    findings.push(Finding {
-        check: "bounces",
-        section: Some(Section::PhotonStorage.title()),
-        expected: "on every facet as many photons of every bounce as the scene leaves there"
-            .to_owned(),
-        found: if passed { "as many as expected" } else { "not as many as expected" }.to_owned(),
-        p_value: Some(p_value),
-        passed,
-        // Positions alone are asked for; a column that counts otherwise is no fault.
-        weight: Weight::Remark,
-        advice: if passed { "" } else { "Check how your list counts bounces." }.into(),
-    });
-    findings
+    corrected(smallest, tests.max(1))
 }

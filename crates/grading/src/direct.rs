@@ -63,7 +63,8 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
     let indirect: Vec<_> = signatures.fair.iter().chain(indirect).collect();
     (0..places.facets.len()).find_map(|class| {
         let most = indirect.iter().map(|signature| share(signature, class)).fold(0.0, f64::max);
-        (counts[class] > (PLAINLY * most * all).max(FEWEST)).then(|| Finding {
+        let is_plain = counts[class] > (PLAINLY * most * all).max(FEWEST);
+        (is_plain && has_all_direct(&counts, class, expectations)).then(|| Finding {
             weight: Weight::Grave,
             ..straight_from_the_light(
                 format!(
@@ -74,5 +75,20 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
                 false,
             )
         })
+    })
+}
+
+/// Of the photons that come straight from the light, this part at least is left on every facet.
+const LEFT_OF_DIRECT: f64 = 0.7;
+
+/// Whether every facet has as many photons as come to it straight from the light, where all on `class` do.
+fn has_all_direct(counts: &[f64], class: usize, expectations: &Expectations) -> bool {
+    let Some(stored) = with_direct(expectations) else { return false };
+    let reference = &expectations.signatures.fair[0];
+    let direct = |facet: usize| (stored.classes[facet] - reference.classes[facet]).max(0.0);
+    let emitted = counts[class] / direct(class).max(1e-9);
+    (0..expectations.places.facets.len()).all(|facet| {
+        let expected = LEFT_OF_DIRECT * emitted * direct(facet);
+        counts[facet] >= expected - 4.0 * expected.sqrt()
     })
 }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::judge_list::SIGNIFICANCE;
 use super::observation::{Observation, ToLight};
 use super::places::Places;
 use super::verdict::{Finding, Weight};
@@ -18,9 +19,11 @@ const MOST_IDENTICAL: f64 = 1e-3;
 const MOST_STRAIGHT: f64 = 1e-4;
 /// A stray photon or two is left to rounding.
 const MOST_ASTRAY: f64 = 5e-4;
+/// Of a column that numbers paths, fewer records than this lack the one before.
+const MOST_GAPS: f64 = 0.5;
 /// A list of photons without a count is shorter than what the handout asks for when it fits fewer photons sent
 /// out than this; with fewer than the second, what is stored is a dozen photons, which tell nothing.
-const FEW_EMITTED: f64 = 5000.0;
+pub const FEW_EMITTED: f64 = 5000.0;
 const LEAST_EMITTED: f64 = 250.0;
 
 /// What can be said without statistics.
@@ -86,12 +89,55 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
             !is_repeated && !is_identical,
             Weight::Fault,
-            "Scattered rays hit the triangle they leave: start them a little above the surface, or \
-             check that no photon is inserted twice.",
+            if observation.repeats_by_rounding || observation.identical.is_none() {
+                "Scattered rays hit the triangle they leave: start them a little above the surface, or \
+                 check that no photon is inserted twice."
+            } else {
+                "Scattered rays come back at once to the surface they leave: check that directions are \
+                 in the hemisphere over the normal, and that rays start above the surface."
+            },
         ),
     ];
+    let same_place = findings.pop();
+    // Where many lie at the same place, they are crowded for that reason.
+    let is_crowded = observation.crowding < SIGNIFICANCE && !is_repeated && !is_identical;
+    findings.push(Finding {
+        p_value: Some(observation.crowding),
+        ..fact(
+            "spread",
+            storage,
+            "photons spread over the surfaces, not on a few spots or lines",
+            if is_crowded { "they crowd on a few spots or lines" } else { "they are" }.to_owned(),
+            !is_crowded,
+            Weight::Fault,
+            "Check that every photon has random numbers of its own, and that the position is where \
+             it hit.",
+        )
+    });
+    findings.extend(same_place);
+    if let Some([later, without]) = observation.gaps
+        && later > 0
+    {
+        let [part, count] = [without as f64 / later as f64, without as f64];
+        // Where most have none, the column counts something else than paths.
+        let counts_paths = part < MOST_GAPS;
+        findings.push(fact(
+            "whole paths",
+            storage,
+            "for every bounce of a photon, a record of the one before",
+            format!("{without} of {later} have none"),
+            count <= (MOST_ASTRAY * later as f64).max(2.0),
+            if counts_paths { Weight::Fault } else { Weight::Remark },
+            if counts_paths {
+                "Records are lost. Lock the photon map while a thread inserts into it, or give every \
+                 thread its own."
+            } else {
+                "Let 'photon' number the photons that are emitted, and 'bounce' count each one's hits."
+            },
+        ));
+    }
     if let Some(decimals) = observation.few_decimals {
-        findings.pop();
+        findings.retain(|finding| finding.check != "same place");
         findings.push(fact(
             "same place",
             storage,

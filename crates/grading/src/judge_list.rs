@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use super::bounces::bounce_findings;
+use super::bounces::{BOUNCES_BY_PLACE, bounce_findings};
 use super::direct::{is_ruled_out, shows_direct};
 use super::facts::{enough, plain_findings, remarks};
 use super::naming::{Explanation, Known, bounces_show, explain};
@@ -115,9 +115,11 @@ pub fn judge(
     let mut findings = plain_findings(observation, places);
     let mut trial = best_trial(observation, emitted, expectations);
     let signature = &expectations.signatures.fair[trial.reading];
-    let of_bounces = bounce_findings(observation, emitted, signature, expectations);
-    let is_off =
-        trial.p_value < SIGNIFICANCE || findings.iter().chain(&of_bounces).any(Finding::is_fault);
+    let mut of_bounces = bounce_findings(observation, emitted, signature, expectations);
+    // What is off by its positions is off by its bounces too.
+    let is_other = |finding: &&Finding| finding.check != BOUNCES_BY_PLACE && finding.is_fault();
+    let is_off = trial.p_value < SIGNIFICANCE
+        || findings.iter().chain(&of_bounces).any(|finding| is_other(&finding));
     let shows = |check: &str| {
         findings.iter().chain(&of_bounces).any(|fault| fault.is_fault() && fault.check == check)
     };
@@ -147,10 +149,12 @@ pub fn judge(
         if let Some((slip, of_slip)) = fitting {
             findings.push(slip_finding(slip, number, trial.p_value));
             trial = of_slip;
+            of_bounces = bounce_findings(observation, None, signature, expectations);
         } else if by_shape.p_value >= SIGNIFICANCE && cannot_be(number, observation.records as f64)
         {
             findings.push(impossible(number, by_shape.emitted, trial.p_value));
             trial = by_shape;
+            of_bounces = bounce_findings(observation, None, signature, expectations);
         } else if by_shape.p_value >= SIGNIFICANCE {
             findings.push(contradiction(number, by_shape.emitted, trial.p_value));
             trial = by_shape;
@@ -186,7 +190,8 @@ pub fn judge(
     }));
     findings.push(enough(observation, emitted, trial.emitted));
     // What is wrong elsewhere shows in the bounces too, and is no matter of how they are counted.
-    findings.extend(of_bounces.into_iter().filter(|finding| finding.is_fault() || !is_off));
+    let is_strange = trial.p_value < SIGNIFICANCE || findings.iter().any(Finding::is_fault);
+    findings.extend(of_bounces.into_iter().filter(|finding| is_other(&finding) || !is_strange));
     findings.extend(of_columns);
     Judgement { findings, explanation, pair, reading, signature, emitted: trial.emitted }
 }

@@ -21,6 +21,7 @@
 pub mod axes;
 pub mod bounces;
 pub mod class;
+pub mod crowding;
 pub mod direct;
 pub mod exact;
 mod facts;

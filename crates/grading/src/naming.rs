@@ -130,6 +130,9 @@ pub fn explain(
         .collect();
     let others = candidates.iter().map(|candidate| candidate.fit.p_value).fold(0.0, f64::max);
     if others < LEAST_LIKELY && repeated > MANY_REPEATED && of_nan == 0.0 {
+        if !shows_self_hits(observation) {
+            return None;
+        }
         let fit = explain_by_self_hits(observation, emitted, places, known)?;
         let hypothesis = no_offset([0.0; FACETS]);
         return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
@@ -145,6 +148,17 @@ pub fn explain(
         );
     }
     most_likely(candidates)
+}
+
+/// Whether photons at the same place are there because rays start below the surface: by rounding, or since they come from
+/// behind it. Directions below the surface lead back to it from the front, and from farther away.
+fn shows_self_hits(observation: &Observation) -> bool {
+    let is_from_behind = observation.to_light.is_some_and(|to_light| {
+        let from_behind = to_light.from_behind as f64;
+        // Of more than half of all photons, it is the sign of the column.
+        (0.5 * observation.repeated..0.5 * to_light.set as f64).contains(&from_behind)
+    });
+    observation.repeats_by_rounding || is_from_behind
 }
 
 /// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.

@@ -14,19 +14,22 @@ use variants::section::Section;
 pub struct Slip {
     name: &'static str,
     factor: f64,
+    /// The power of the number of photons that the intensity has, by which it is divided.
+    power: f64,
 }
 
 /// Those that belong to powers, fluxes and responses of light, and a light that was made brighter by hand. No other
 /// factor is below 1: it would excuse as many photons missing.
-pub const SLIPS: [Slip; 8] = [
-    Slip { name: "4 pi", factor: 4.0 * PI },
-    Slip { name: "2 pi", factor: 2.0 * PI },
-    Slip { name: "10", factor: 10.0 },
-    Slip { name: "100", factor: 100.0 },
-    Slip { name: "1000", factor: 1000.0 },
-    Slip { name: "pi", factor: PI },
-    Slip { name: "1/pi", factor: 1.0 / PI },
-    Slip { name: "1/(4 pi)", factor: 0.25 / PI },
+pub const SLIPS: [Slip; 9] = [
+    Slip { name: "4 pi", factor: 4.0 * PI, power: 1.0 },
+    Slip { name: "2 pi", factor: 2.0 * PI, power: 1.0 },
+    Slip { name: "10", factor: 10.0, power: 1.0 },
+    Slip { name: "100", factor: 100.0, power: 1.0 },
+    Slip { name: "1000", factor: 1000.0, power: 1.0 },
+    Slip { name: "pi", factor: PI, power: 1.0 },
+    Slip { name: "1/pi", factor: 1.0 / PI, power: 1.0 },
+    Slip { name: "1/(4 pi)", factor: 0.25 / PI, power: 1.0 },
+    Slip { name: "1/N", factor: 1.0, power: 2.0 },
 ];
 
 /// No mistake stores more than this part of the photons sent out, unless it stores some twice: with those straight
@@ -36,7 +39,7 @@ const MOST_STORED: f64 = 1.0 / 3.0;
 impl Slip {
     /// How many photons were sent out, where the intensity has this factor and says `number`.
     pub fn emitted(&self, number: f64) -> f64 {
-        (self.factor * number).round()
+        (self.factor * number.powf(1.0 / self.power)).round()
     }
 }
 

@@ -1,5 +1,8 @@
 //! What a list of photons shows: counted by place, and looked over for what cannot be right.
 
+use std::collections::HashSet;
+
+use super::crowding::crowding;
 use super::places::{Place, Places};
 use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
@@ -17,6 +20,9 @@ const MOST_NEIGHBOURS: usize = 256;
 const FEWEST_DECIMALS: i32 = 4;
 /// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
 const EXACT_DECIMALS: i32 = 6;
+/// Rounding brings a hit no farther than this from the hit it repeats: four units in the last place of an f32
+/// between 1 and 2. Rays that start 1e-5 above a surface and go below it come back farther away.
+const BY_ROUNDING: f64 = 1e-6;
 /// How many bounces are counted apart.
 pub const BOUNCES: usize = 4;
 
@@ -105,6 +111,14 @@ pub struct Observation {
     pub repeated: f64,
     /// How many lie where another one does to the last bit; nothing where that may come from rounding.
     pub identical: Option<f64>,
+    /// Whether most of those that are repeated lie where another one does up to the rounding of an f32, and
+    /// positions have enough decimals to tell.
+    pub repeats_by_rounding: bool,
+    /// The chance, at most, that photons lie as crowded as they do.
+    pub crowding: f64,
+    /// If the list has the numbers of photons and bounces: of the records after a path's first, how many there are,
+    /// and how many have no record of the bounce before.
+    pub gaps: Option<[u64; 2]>,
     /// The same without those that are repeated.
     pub distinct: Counts,
     /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
@@ -153,6 +167,7 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
             distinct.add(*place);
         }
     }
+    let repeats_by_rounding = decimals.is_none() && are_by_rounding(&repeats);
     let count = |wanted| repeats.iter().filter(|repeat| **repeat == wanted).count() as f64;
     let identical = count(Repeat::Exactly);
     let bounces = list.columns.bounce.then(|| {
@@ -168,10 +183,20 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         }
         by_bounce
     });
+    let is_on_facet = |place: &Place| matches!(place, Place::Cell { .. } | Place::Corner { .. });
+    let on_facets: Vec<DVec3> = (list.records.iter().zip(&located))
+        .filter(|(_, place)| is_on_facet(place))
+        .map(|(record, _)| record.position.as_dvec3())
+        .collect();
+    let unit = decimals.map_or(0.0, |decimals| 10_f64.powi(-decimals));
+    let gaps = (list.columns.photon && list.columns.bounce).then(|| gaps(&list.records));
     let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
     Observation {
         records: list.records.len() as u64,
-        repeated: count(Repeat::Closely) + identical,
+        repeated: count(Repeat::Closely) + count(Repeat::ByRounding) + identical,
+        repeats_by_rounding,
+        crowding: crowding(&on_facets, unit),
+        gaps,
         identical: decimals.is_none().then_some(identical),
         counts,
         distinct,
@@ -182,6 +207,16 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         by_bounce,
         bounces,
     }
+}
+
+/// How many of `records` come after a path's first, and how many of these lack the bounce before.
+fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
+    let first = records.iter().map(|record| record.bounce).min().unwrap_or_default();
+    let known: HashSet<_> = records.iter().map(|record| (record.photon, record.bounce)).collect();
+    let later = records.iter().filter(|record| record.bounce > first);
+    let without =
+        later.clone().filter(|record| !known.contains(&(record.photon, record.bounce - 1)));
+    [later.count() as u64, without.count() as u64]
 }
 
 /// The intensity is the light's colour, which is white, divided by the photons it sends out.
@@ -202,8 +237,17 @@ fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Repeat {
     No,
+    /// Within [`SAME_PLACE`].
     Closely,
+    /// Within [`BY_ROUNDING`].
+    ByRounding,
     Exactly,
+}
+
+/// Whether most of the photons that repeat another one are no farther from it than rounding.
+fn are_by_rounding(repeats: &[Repeat]) -> bool {
+    let count = |wanted| repeats.iter().filter(|repeat| **repeat == wanted).count();
+    count(Repeat::Exactly) + count(Repeat::ByRounding) > count(Repeat::Closely)
 }
 
 /// Which photons have another one at the same place that comes after them on a sweep.
@@ -225,6 +269,7 @@ fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat> {
         let closest = near.map(|other| other.1.distance_squared(*position)).reduce(f64::min);
         repeats[*index] = match closest {
             Some(0.0) => Repeat::Exactly,
+            Some(squared) if squared <= BY_ROUNDING.powi(2) => Repeat::ByRounding,
             Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
             _ => Repeat::No,
         };

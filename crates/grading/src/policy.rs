@@ -13,6 +13,8 @@ use super::verdict::Verdict;
 pub struct Policy {
     /// For a correct submission.
     pub correct: f64,
+    /// For one with too few photons to tell.
+    pub undecided: f64,
     /// For an incorrect one whose photons are finite, on surfaces, and indirect only.
     pub plausible: f64,
     /// For any other incorrect one.
@@ -29,6 +31,7 @@ impl Default for Policy {
     fn default() -> Self {
         Self {
             correct: 4.0,
+            undecided: 0.0,
             plausible: 3.0,
             incorrect: 2.0,
             no_dots: 1.0,
@@ -44,6 +47,7 @@ impl Policy {
     pub fn score(&self, verdict: Verdict, misreading: Option<&str>, is_plausible: bool) -> f64 {
         match verdict {
             Verdict::Correct => self.correct,
+            Verdict::Undecided => self.undecided,
             Verdict::NoDots => self.no_dots,
             Verdict::Unreadable => self.unreadable,
             Verdict::Incorrect => match misreading.and_then(|id| self.misreadings.get(id)) {
@@ -58,6 +62,7 @@ impl Policy {
     pub fn odd_score(&self) -> Option<(&str, f64)> {
         let named = [
             ("correct", self.correct),
+            ("undecided", self.undecided),
             ("plausible", self.plausible),
             ("incorrect", self.incorrect),
             ("no-dots", self.no_dots),
@@ -70,7 +75,8 @@ impl Policy {
 
     /// The highest score.
     pub fn best(&self) -> f64 {
-        let others = [self.plausible, self.incorrect, self.no_dots, self.unreadable];
+        let others =
+            [self.undecided, self.plausible, self.incorrect, self.no_dots, self.unreadable];
         others.into_iter().fold(self.correct, f64::max)
     }
 }

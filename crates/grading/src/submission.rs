@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::axes;
 use super::exact::exact_comparison;
+use super::facts::FEW_EMITTED;
 use super::judge_list::{Expectations, Judgement, judge};
 use super::naming::Explanation;
 use super::observation::observe;
@@ -26,6 +27,9 @@ pub const MOST_RECORDS: usize = 5_000_000;
 const TOGETHER: f64 = 0.5;
 /// Of fewer red pixels, it is not said that they do not.
 const FEWEST_DOTS: f64 = 100.0;
+
+/// Of [`FEW_EMITTED`] photons, so many are stored.
+const FEW_STORED: u32 = 250;
 
 /// What one student handed in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -184,6 +188,17 @@ fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Opti
     Some(remark("list and picture", "dots where the list's photons are", &found, advice))
 }
 
+/// The remark that `records` photons are too few to tell a fair reading from a misreading.
+fn too_few(records: u64) -> Finding {
+    remark(
+        "enough to tell",
+        &format!("the photons of at least {FEW_EMITTED} emitted: about {FEW_STORED}"),
+        &format!("{records} photons, too few to tell a correct program from others"),
+        "Hand in the list of a run of 1,000,000 photons. If you meant to emit so few, grade with \
+         --emitted.",
+    )
+}
+
 /// A finding that costs nothing.
 pub fn remark(check: &'static str, expected: &str, found: &str, advice: &'static str) -> Finding {
     Finding {
@@ -256,9 +271,15 @@ fn grade_list(
         emitted.map(|emitted| emitted as u64),
     );
     judgement.findings.extend(exact);
+    // What the course says of the number is what it wants to know of so few.
+    let is_too_few = by_user.is_none() && judgement.emitted < FEW_EMITTED;
+    if is_too_few {
+        judgement.findings.push(too_few(observation.records));
+    }
     let misreading = judgement.explanation.as_ref();
     let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
     let verdict = match faults().next() {
+        None if is_too_few => Verdict::Undecided,
         None => Verdict::Correct,
         Some(_) => Verdict::Incorrect,
     };

@@ -11,6 +11,7 @@ pub fn printable(text: &str) -> String {
 pub fn verdict_in_words(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Correct => "correct",
+        Verdict::Undecided => "undecided, needs a look",
         Verdict::Incorrect => "incorrect",
         Verdict::NoDots => "no dots",
         Verdict::Unreadable => "unreadable",

@@ -10,6 +10,8 @@ use serde::Serialize;
 pub enum Verdict {
     /// What the handout asks for, in one of its fair readings.
     Correct,
+    /// Too few photons to tell whether it is what the handout asks for.
+    Undecided,
     /// Something else.
     Incorrect,
     /// Nothing was stored, or nothing is shown.

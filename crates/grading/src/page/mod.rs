@@ -116,11 +116,12 @@ impl<'a> Pages<'a> {
     }
 
     fn rubric(&self, grade: &Grade) -> Markup {
-        let Policy { correct, plausible, incorrect, no_dots, unreadable, misreadings } =
+        let Policy { correct, undecided, plausible, incorrect, no_dots, unreadable, misreadings } =
             self.policy;
         let own = grade.misreading.and_then(|id| Some((id, *misreadings.get(id)?)));
         let mut rows = vec![
             (*correct, "dots as the handout's photons leave them".to_owned(), Verdict::Correct),
+            (*undecided, "too few photons to tell: needs a look".to_owned(), Verdict::Undecided),
             (
                 *plausible,
                 "dots that look incorrect, but finite, on surfaces, and indirect only".to_owned(),
@@ -370,7 +371,7 @@ fn class_of(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Correct => "correct",
         Verdict::Incorrect => "incorrect",
-        Verdict::NoDots | Verdict::Unreadable => "nothing",
+        Verdict::Undecided | Verdict::NoDots | Verdict::Unreadable => "nothing",
     }
 }
 

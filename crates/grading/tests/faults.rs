@@ -1,0 +1,187 @@
+//! Faults that look like something else: what is said of them, and what is not.
+
+use std::sync::LazyLock;
+
+use glam::Vec3;
+use grading::crowding::crowding;
+use grading::judge_list::{Expectations, Judgement, judge};
+use grading::observation::{Observation, observe};
+use grading::places::Places;
+use grading::signature::Signatures;
+use photon_list::reader::PhotonList;
+use photon_list::record::{ABSENT, Columns};
+use photon_mapping::assignment8::create_scene;
+use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::random::photon_random;
+use variants::hypotheses::no_offset;
+use variants::variation::{Simulation, Variation};
+
+const EMITTED: u64 = 200_000;
+
+static EXPECTATIONS: LazyLock<Expectations> =
+    LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
+
+fn records(variation: Variation, seed: u64, emitted: u64) -> Vec<PhotonRecord> {
+    Simulation::new(variation, seed, emitted, 1000).trace(0..emitted)
+}
+
+fn observed(records: Vec<PhotonRecord>, columns: Columns) -> Observation {
+    let light = create_scene().lights()[0].position.as_dvec3();
+    observe(&PhotonList { columns, records }, &EXPECTATIONS.places, light)
+}
+
+fn positions_of(records: &[PhotonRecord]) -> Observation {
+    let bare = |record: &PhotonRecord| PhotonRecord { position: record.position, ..ABSENT };
+    observed(records.iter().map(bare).collect(), Columns::default())
+}
+
+fn faults(judgement: &Judgement) -> Vec<&'static str> {
+    let faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+    faults.map(|fault| fault.check).collect()
+}
+
+fn name(judgement: &Judgement) -> Option<&str> {
+    judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+}
+
+#[test]
+fn hits_that_come_back_from_farther_than_rounding_are_not_called_no_offset() {
+    let sides = [0.2, 0.6, 0.6, 0.6, 0.6, 0.3, 0.2, 0.6, 0.6, 0.6, 0.6, 0.15];
+    let self_hits = records(no_offset(sides).variation, 60, EMITTED);
+    // As from 1e-5 above the surface, in a direction below it.
+    let mut below = self_hits.clone();
+    for at in 1..below.len() {
+        if self_hits[at].position == self_hits[at - 1].position {
+            let facet = &EXPECTATIONS.places.facets[usize::from(self_hits[at].surface)];
+            let along = (facet.corners[1] - facet.corners[0]).normalize();
+            below[at].position = below[at - 1].position + 1.2e-5 * along.as_vec3();
+        }
+    }
+    for emitted in [None, Some(EMITTED as f64)] {
+        let judged = |list| judge(&positions_of(list), emitted, emitted.is_some(), &EXPECTATIONS);
+        assert_eq!(name(&judged(&self_hits)), Some("no-offset"));
+        let judgement = judged(&below);
+        assert_eq!(name(&judgement), None);
+        assert!(faults(&judgement).contains(&"same place"));
+        let mut same_place = judgement.findings.iter().filter(|it| it.check == "same place");
+        assert!(same_place.all(|it| it.advice.contains("hemisphere over the normal")));
+    }
+}
+
+/// What is said of `positions` alone.
+fn faults_at(positions: impl Iterator<Item = Vec3>) -> Vec<&'static str> {
+    let records: Vec<_> = positions.map(|position| PhotonRecord { position, ..ABSENT }).collect();
+    faults(&judge(&observed(records, Columns::default()), None, false, &EXPECTATIONS))
+}
+
+#[test]
+fn copies_spots_and_lines_are_never_correct() {
+    let copies = |count| (0..count).map(|_| Vec3::new(0.1, 0.2, 0.0));
+    assert!(!faults_at(copies(10)).is_empty());
+    assert!(faults_at(copies(100)).contains(&"spread"));
+    let along = |count: u16, step: f32| {
+        (0..count).map(move |at| Vec3::new(0.100_123_4 + step * f32::from(at), -0.8, 0.0))
+    };
+    assert!(faults_at(along(75, 1e-4)).contains(&"spread"));
+    assert!(faults_at(along(400, 1e-3)).contains(&"spread"));
+    let mut rand = photon_random(3, 3);
+    let spot = (0..300).map(|_| Vec3::new(0.02 * rand() - 0.8, 0.02 * rand() - 0.8, 0.0));
+    assert!(faults_at(spot).contains(&"spread"));
+}
+
+#[test]
+fn photons_of_the_reference_do_not_crowd() {
+    for (seed, emitted) in [(1, 1000), (2, 20_000), (3, EMITTED), (4, 2_000_000)] {
+        let records = records(Variation::default(), seed, emitted);
+        for unit in [0.0, 0.01, 0.1] {
+            let rounded = |record: &PhotonRecord| match record.position.as_dvec3() {
+                exact if unit == 0.0 => exact,
+                exact => (exact / unit).round() * unit,
+            };
+            let positions: Vec<_> = records.iter().map(rounded).collect();
+            let chance = crowding(&positions, unit);
+            assert!(chance > 0.9, "{emitted} {unit}: {chance:e}");
+        }
+    }
+}
+
+const PATHS: Columns =
+    Columns { intensity: false, to_light: false, photon: true, bounce: true, surface: false };
+
+fn faults_of_paths(records: Vec<PhotonRecord>, columns: Columns) -> Vec<&'static str> {
+    let judgement = judge(&observed(records, columns), Some(EMITTED as f64), true, &EXPECTATIONS);
+    assert_eq!(name(&judgement), None);
+    faults(&judgement)
+}
+
+#[test]
+fn bounces_that_contradict_the_scene_are_a_fault() {
+    let of_reference = records(Variation::default(), 70, EMITTED);
+    assert!(faults_of_paths(of_reference.clone(), PATHS).is_empty());
+    // Photons after one bounce and after two, some of them the other way round.
+    let columns = Columns { photon: false, ..PATHS };
+    let with = |change: &dyn Fn(usize, &mut PhotonRecord)| {
+        let mut records = of_reference.clone();
+        records.iter_mut().enumerate().for_each(|(at, record)| change(at, record));
+        faults_of_paths(records, columns)
+    };
+    let swapped = with(&|at, record| {
+        if at % 2 == 0 && record.bounce <= 2 {
+            record.bounce = 3 - record.bounce;
+        }
+    });
+    assert_eq!(swapped, ["bounces"]);
+    // A column that counts bounces backwards is no count of hits.
+    assert!(with(&|_, record| record.bounce = 1000 - record.bounce).is_empty());
+    assert!(with(&|_, record| record.bounce -= 1).is_empty());
+    assert!(with(&|_, record| record.bounce += 1).is_empty());
+}
+
+#[test]
+fn a_limit_of_the_program_s_own_is_a_fault() {
+    let most_bounces = Variation { most_bounces: 5, ..Variation::default() };
+    let short = records(most_bounces, 71, EMITTED);
+    assert_eq!(faults_of_paths(short, PATHS), ["longest path"]);
+}
+
+#[test]
+fn paths_with_gaps_are_a_fault() {
+    let mut lossy = records(Variation::default(), 72, EMITTED);
+    let mut rand = photon_random(72, 72);
+    lossy.retain(|_| rand() > 0.03);
+    assert_eq!(faults_of_paths(lossy.clone(), PATHS), ["whole paths"]);
+    // A number for every record numbers no paths.
+    (0..).zip(&mut lossy).for_each(|(at, record)| record.photon = at);
+    assert!(!faults_of_paths(lossy, PATHS).contains(&"whole paths"));
+}
+
+#[test]
+fn an_intensity_divided_twice_costs_nothing() {
+    for emitted in [20_000, 50_000, EMITTED, 600_000, 1_000_000] {
+        let mut twice = records(Variation::default(), 73, emitted);
+        twice.iter_mut().for_each(|record| record.intensity /= emitted as f32);
+        let columns = Columns { intensity: true, bounce: true, ..Columns::default() };
+        let observation = observed(twice, columns);
+        let by_intensity = observation.emitted_by_intensity;
+        let judgement = judge(&observation, by_intensity, false, &EXPECTATIONS);
+        assert!(faults(&judgement).is_empty(), "{emitted}: {:#?}", judgement.findings);
+        assert!(judgement.findings.iter().any(|finding| !finding.passed));
+    }
+}
+
+#[test]
+fn photons_that_go_up_are_not_called_direct() {
+    // As from a light that shines upward: what is stored by way of the ceiling and the walls.
+    let columns = Columns { to_light: true, ..Columns::default() };
+    let all = records(Variation { direct_stored: true, ..Variation::default() }, 74, EMITTED);
+    let light = create_scene().lights()[0].position;
+    let goes_up = |path: &[PhotonRecord]| path[0].position.z > light.z;
+    let paths = all.chunk_by(|a, b| a.photon == b.photon).filter(|path| goes_up(path));
+    let stored: Vec<_> = paths.flat_map(|path| path[1..].to_vec()).collect();
+    assert!(stored.len() > 200);
+    for list in [positions_of(&stored), observed(stored.clone(), columns)] {
+        let judgement = judge(&list, None, false, &EXPECTATIONS);
+        assert!(!faults(&judgement).is_empty());
+        assert!(!faults(&judgement).contains(&"indirect only"), "{:#?}", judgement.findings);
+    }
+}
