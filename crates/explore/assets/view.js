@@ -24,13 +24,15 @@ void main() {
   o = vec4(mix(c * lit, air, wash), alpha);
 }`;
 // A dot is as wide as the cube in which the handout looks for a photon, but never too small to see.
+// It stands a little nearer than its surface, whose depth varies within the dot's pixels.
+// (`polygonOffset` would do the same, but some drivers give other depths in every frame.)
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
 uniform mat4 camera; uniform vec3 eye; uniform float pixels, least, most, size, dim; uniform vec3 palette[16];
 uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
-  vec3 nearer = mix(position, eye, .002);
+  vec3 nearer = mix(position, eye, .006);
   gl_Position = camera * vec4(nearer, 1);
   gl_Position.xy += shift * gl_Position.w;
   wide = clamp(size * pixels / gl_Position.w, least, most);
@@ -264,9 +266,6 @@ class View {
   drawSurfaces(camera) {
     const { gl, programs: { surface }, layers: { surfaces } } = this;
     gl.useProgram(surface.made);
-    // A dot has one depth, a surface seen at a grazing angle has many within the same pixel.
-    gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(3, 2);
     gl.uniformMatrix4fv(surface.at("camera"), false, camera);
     gl.uniform3fv(surface.at("light"), this.light);
     gl.uniform3fv(surface.at("air"), this.air);
@@ -353,7 +352,7 @@ class View {
 function orbit(view, onClick, onCentre) {
   const { canvas } = view;
   const pointers = new Map();
-  let moved = 0, last = 0;
+  let moved = 0;
   const turn = (dx, dy) => view.look({ yaw: view.camera.yaw + dx, pitch: view.camera.pitch - dy });
   const zoom = (by) => view.look({ distance: Math.min(Math.max(view.camera.distance * by, view.camera.size / 500), view.camera.size * 20) });
   const spread = () => { const [a, b] = [...pointers.values()]; return Math.hypot(a.x - b.x, a.y - b.y); };
@@ -377,12 +376,11 @@ function orbit(view, onClick, onCentre) {
   });
   const release = (event) => {
     if (!pointers.delete(event.pointerId) || event.type !== "pointerup" || moved > 6 || pointers.size) return;
-    const isDouble = event.timeStamp - last < 350;
-    last = event.timeStamp;
-    (isDouble ? onCentre : onClick)(event.offsetX, event.offsetY);
+    onClick(event.offsetX, event.offsetY);
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("dblclick", (event) => onCentre(event.offsetX, event.offsetY));
   canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoom(Math.exp(event.deltaY * 0.0012)); }, { passive: false });
   return { turn, zoom };
 }

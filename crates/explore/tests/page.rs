@@ -269,8 +269,7 @@ fn the_mouse_turns_zooms_and_centers() {
     browser.settle();
     let place = browser.run(&format!("(() => {{ const [x, y] = page.view.project({dot}); const r = page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; }})()"));
     let (x, y) = (float(&place[0]), float(&place[1]));
-    browser.click(x, y);
-    browser.click(x, y);
+    browser.double_click(x, y);
     browser.wait_for(&format!(
         "Math.hypot(...page.view.camera.target.map((x, i) => x - {dot}[i])) < 1e-6"
     ));

@@ -181,8 +181,20 @@ impl Browser {
 
     /// Clicks at the CSS pixel (`x`, `y`) of the window.
     pub fn click(&self, x: f64, y: f64) {
+        self.nth_click(x, y, 1);
+    }
+
+    /// Clicks twice at the CSS pixel (`x`, `y`) of the window.
+    pub fn double_click(&self, x: f64, y: f64) {
+        self.nth_click(x, y, 1);
+        self.nth_click(x, y, 2);
+    }
+
+    /// The click that is the `count`th in a row.
+    fn nth_click(&self, x: f64, y: f64, count: u32) {
         for kind in ["mouseMoved", "mousePressed", "mouseReleased"] {
-            let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
+            let event =
+                json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": count });
             self.call("Input.dispatchMouseEvent", event);
         }
     }
