@@ -102,7 +102,8 @@ impl Paths {
     }
 }
 
-/// Whole paths of `records`, evenly spread, that are at most about `most` records; nothing if all are.
+/// Whole paths of `records`, evenly spread, that are at most about `most` records; nothing if all
+/// are.
 fn thin(records: &[PhotonRecord], most: usize) -> Option<Vec<PhotonRecord>> {
     if records.len() <= most {
         return None;

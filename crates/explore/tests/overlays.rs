@@ -44,8 +44,8 @@ fn every_misreading_opens_where_it_differs() {
         assert_eq!(text("verdict"), format!("{name}: {title}"));
         assert_eq!(text("step-title"), title, "{name}");
         assert_eq!(browser.run("document.getElementById('sides').hidden"), false, "{name}");
-        // The photon that is open stores something else in the two lists, and the step is the one that
-        // makes the first difference.
+        // The photon that is open stores something else in the two lists, and the step is the one
+        // that makes the first difference.
         let photon = float(&browser.run("page.photon")) as u32;
         let of = |list: &[PhotonRecord]| -> Vec<_> {
             let of_photon = list.iter().filter(|record| record.photon == photon);

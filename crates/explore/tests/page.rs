@@ -31,7 +31,8 @@ fn open_handout(link: &str) -> Option<Browser> {
     Some(browser)
 }
 
-/// Each step of the photon that is open: its bounce, name, values beside the code, and other values.
+/// Each step of the photon that is open: its bounce, name, values beside the code, and other
+/// values.
 const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
     link: page.link, title: document.getElementById('step-title').textContent,
     values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => [v.dataset.name, v.textContent])),
@@ -91,8 +92,8 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let found = red.iter().filter(|(x, y)| near(*x, *y, &is_drawn)).count();
     assert!(red.len() > 10_000, "{}", red.len());
     assert!(found * 100 >= red.len() * 99, "{found} of {}", red.len());
-    // And no dots but those of photons in sight. The picture misses some of these: seen at a grazing
-    // angle, a dot is narrower than a pixel.
+    // And no dots but those of photons in sight. The picture misses some of these: seen at a
+    // grazing angle, a dot is narrower than a pixel.
     let in_sight = dots_in_sight(&handout().0);
     let all = (0..480).flat_map(|y| (0..640).map(move |x| (x, y)));
     let drawn: Vec<_> = all.filter(|(x, y)| is_drawn(*x, *y)).collect();

@@ -15,8 +15,8 @@ use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
 use rayon::prelude::*;
 
-/// A closed mesh of 20 * 4^`level` triangles about the origin: a sphere whose corners are moved to where
-/// `place` puts each, given its number.
+/// A closed mesh of 20 * 4^`level` triangles about the origin: a sphere whose corners are moved to
+/// where `place` puts each, given its number.
 fn closed_mesh(level: u32, place: impl Fn(usize, Vec3) -> Vec3) -> Vec<Triangle> {
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut corners: Vec<DVec3> = Vec::new();
@@ -152,8 +152,8 @@ fn scene_of(triangles: &[Triangle]) -> Scene {
     scene
 }
 
-/// How many of `count` photons get lost of a light in the middle of `triangles`. Nothing is absorbed, so each
-/// should bounce as often as it may.
+/// How many of `count` photons get lost of a light in the middle of `triangles`. Nothing is
+/// absorbed, so each should bounce as often as it may.
 fn lost(triangles: Vec<Triangle>, seed: u64, count: u64, max_photon_bounces: i32) -> u64 {
     let white = MeshObject { name: String::new(), material: Material::new(Vec3::ONE) };
     let light = PointLight { position: Vec3::ZERO, color: Vec3::ONE };
@@ -192,8 +192,9 @@ fn sharpest_angle(triangles: &[Triangle]) -> f32 {
     sharpest
 }
 
-/// In a corner sharper than a right angle the offset leads some photons behind the other wall: those that
-/// land as near to the edge. The start's error gives half of them back; here 0.6 of a million are lost.
+/// In a corner sharper than a right angle the offset leads some photons behind the other wall:
+/// those that land as near to the edge. The start's error gives half of them back; here 0.6 of a
+/// million are lost.
 #[test]
 fn photons_lost_in_acute_corners_are_rare() {
     let triangles = tetrahedron();

@@ -1,4 +1,5 @@
-//! Where a scattered ray starts: what goes wrong with no offset, fixed ones, and the reference's rule.
+//! Where a scattered ray starts: what goes wrong with no offset, fixed ones, and the reference's
+//! rule.
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -214,7 +215,8 @@ fn signed_percent(change: f64) -> String {
     if change == 0.0 { "0 %".to_owned() } else { format!("{:+.2} %", 100.0 * change) }
 }
 
-/// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be seen.
+/// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be
+/// seen.
 fn plot(cases: &[Case]) -> String {
     let shown = [
         (Rule::None, Mark::Circles),
@@ -264,7 +266,8 @@ fn plot(cases: &[Case]) -> String {
 mod tests {
     use super::*;
 
-    /// What the framework's figures say: nothing at 1e-5, half a percent of the stored photons at 1e-2.
+    /// What the framework's figures say: nothing at 1e-5, half a percent of the stored photons at
+    /// 1e-2.
     #[test]
     fn losses_are_counted_photon_by_photon() {
         let photons = 1_000_000;
