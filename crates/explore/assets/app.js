@@ -51,7 +51,7 @@ class Page {
 
   // What there is to show.
 
-  /** All dots: the stored photons, then what a submission stored elsewhere, then what it stored besides. */
+  /** All dots: the stored photons, then those that a submission moved, then its extra ones. */
   collectDots() {
     const { run } = this,
       { sections, comparison } = run;
@@ -107,8 +107,8 @@ class Page {
       run.keptOf > run.stored
         ? ` Of these the page has ${thousands(run.stored)}, evenly thinned.`
         : "";
-    $("run").textContent =
-      `${thousands(run.emitted)} emitted, ${thousands(run.keptOf)} stored, seed ${run.seed}.${thinned}`;
+    const counts = `${thousands(run.emitted)} emitted, ${thousands(run.keptOf)} stored`;
+    $("run").textContent = `${counts}, seed ${run.seed}.${thinned}`;
     $("home").textContent = run.isHandout ? "Handout's camera" : "Whole scene";
     $("photon").max = run.emitted - 1;
   }
@@ -152,10 +152,8 @@ class Page {
           }),
         );
       const button = make("button", { type: "button", ariaPressed: "false" }, ...words);
-      button.setAttribute(
-        "aria-label",
-        `${only.name}: ${stored} stored${expected === null ? "" : `, ${expected.toFixed(1)} expected`}`,
-      );
+      const beside = expected === null ? "" : `, ${expected.toFixed(1)} expected`;
+      button.setAttribute("aria-label", `${only.name}: ${stored} stored${beside}`);
       const light = (lit) => {
         this.lit = lit;
         this.showDots();
@@ -297,7 +295,8 @@ class Page {
   /** What stands in for the box where there is no WebGL. */
   showPicture() {
     $("trouble").textContent =
-      "This browser shows no WebGL2, so you see the picture instead of the box. The table and the stories work.";
+      "This browser has no WebGL2, so you see the picture instead of the box. " +
+      "The table and the stories work.";
     $("trouble").hidden = false;
     $("picture").src = this.run.picture;
     $("picture").hidden = false;
@@ -457,7 +456,8 @@ class Page {
             ? "it stores no photon, or the page leaves it out"
             : "it stores no photon";
       return this.say(
-        `Photon ${thousands(photon)} has no story here: ${why}. Run photon-mapping explore --photon ${photon} to get it.`,
+        `Photon ${thousands(photon)} has no story here: ${why}. ` +
+          `Run photon-mapping explore --photon ${photon} to get it.`,
       );
     }
     this.say("");
@@ -696,8 +696,9 @@ class Page {
         place[1] < 0 ||
         place[0] > view.canvas.clientWidth ||
         place[1] > view.canvas.clientHeight;
-      if (!label.hidden)
-        label.style.transform = `translate(${Math.min(place[0] + 8, view.canvas.clientWidth - label.offsetWidth - 2)}px, ${place[1] + this.labels[i][2]}px)`;
+      if (label.hidden) return;
+      const left = Math.min(place[0] + 8, view.canvas.clientWidth - label.offsetWidth - 2);
+      label.style.transform = `translate(${left}px, ${place[1] + this.labels[i][2]}px)`;
     });
   }
 

@@ -1,7 +1,7 @@
 // The data of the page: what Rust packed, unpacked.
 
-/** The sections of the block `data`: typed arrays by name. Their bytes come plane by plane (all lowest bytes first),
- * because that deflates better. */
+/** The sections of the block `data`: typed arrays by name. Their bytes come plane by plane, all
+ * lowest bytes first, because that deflates better. */
 async function readSections(list) {
   const text = document.getElementById("data").textContent.trim();
   const packed =
@@ -23,8 +23,8 @@ async function readSections(list) {
   return sections;
 }
 
-/** The random numbers of `photon`: ChaCha with 8 rounds, as in the port's `random.rs`. The numbers of all photons
- * would double the page, so they are drawn again here. All that follows from them is Rust's. */
+/** The random numbers of `photon`: ChaCha with 8 rounds, as in the port's `random.rs`. The numbers
+ * of all photons would double the page, so they are drawn again here. Rust computed the rest. */
 function photonRandom(seed, photon) {
   const block = new Uint32Array(16);
   const key = BigInt(seed);
@@ -86,7 +86,7 @@ class Run {
     const { path_photon: steps, path_hits: hits, path_ending: endings } = sections;
     this.paths = hits.length;
     const stored = hits.reduce((sum, count) => sum + Math.max(count - 1, 0), 0);
-    // Of each path: its photon, and where its hits, its stored photons and its scattered directions begin.
+    // For each path: its photon, and where its hits, stored photons and directions begin.
     this.photons = new Uint32Array(this.paths);
     this.firstHit = new Uint32Array(this.paths + 1);
     this.firstStored = new Uint32Array(this.paths + 1);

@@ -1,4 +1,4 @@
-// The story of one photon as steps: what each says, which values stand beside which line, and what is drawn in the box.
+// The story of one photon as steps: the text, the values beside each line, the lines in the box.
 
 const ENDINGS = {
   absorbed: "absorbed",
@@ -10,11 +10,12 @@ const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
 const degrees = (cosine) =>
   `${((Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180) / Math.PI).toFixed(1)}°`;
 
-/** The steps of `story`, first to last: {bounce, name, say, values, more, marks, lines, diagram}. */
+/** The steps of `story` in order: {bounce, name, say, values, more, marks, lines, diagram}. */
 function stepsOf(run, story) {
   const { tries, direction, hits, light } = story;
   const [x, y, z] = tries.at(-1);
   const rejected = tries.length - 1;
+  const [lies, they] = rejected === 1 ? ["lies", "it is"] : ["lie", "they are"];
   const steps = [
     {
       bounce: 0,
@@ -22,7 +23,8 @@ function stepsOf(run, story) {
       say: [
         rejected === 0
           ? "The first point drawn in the cube lies in the sphere, so it is taken."
-          : `${rejected} of ${tries.length} points drawn in the cube ${rejected === 1 ? "lies" : "lie"} outside the sphere, so ${rejected === 1 ? "it is" : "they are"} rejected. The last one is taken.`,
+          : `${rejected} of ${tries.length} points drawn in the cube ${lies} outside the sphere, ` +
+            `so ${they} rejected. The last one is taken.`,
         "Normalized, it is the direction in which the photon leaves the light.",
       ],
       values: {
@@ -34,7 +36,8 @@ function stepsOf(run, story) {
       },
       more: tries.map((xyz, i) => [
         `try ${i + 1}`,
-        `${vectorText(xyz)}, x² + y² + z² = ${digits(lengthSquared(xyz))}: ${i === rejected ? "taken" : "rejected"}`,
+        `${vectorText(xyz)}, x² + y² + z² = ${digits(lengthSquared(xyz))}: ` +
+          (i === rejected ? "taken" : "rejected"),
       ]),
       diagram: () => diagrams.cube(tries),
     },
@@ -100,7 +103,8 @@ function stepsOfHit(run, story, hit, bounce) {
           ]
         : [
             "path has one element, L: the photon comes straight from the light.",
-            "It is not stored. The handout stores only photons that have bounced; shadow rays bring the direct light.",
+            "It is not stored. The handout stores only photons that have bounced; " +
+              "shadow rays bring the direct light.",
           ],
       values: {
         "path.len()": `${bounce + 1}`,
@@ -116,7 +120,8 @@ function stepsOfHit(run, story, hit, bounce) {
         `P_r is the largest channel of the diffuse response: ${digits(survival)}.`,
         scattered
           ? `The random number ${digits(roulette)} is less, so the photon scatters.`
-          : `The random number ${digits(roulette)} is not less, so the photon is absorbed here and its path ends.`,
+          : `The random number ${digits(roulette)} is not less, ` +
+            "so the photon is absorbed here and its path ends.",
       ],
       values: {
         diffuse_response: vectorText(hit.diffuse),
@@ -173,13 +178,16 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
   const start = position.map((p, i) => round(p + round((run.offset ?? 0) * normal[i])));
   const axis = face.axis,
     axisName = `(${axis.join(", ")})`,
-    isX = axis[0] === 1;
+    isX = axis[0] === 1,
+    alongX = about(Math.abs(normal[0]));
   return [
     {
       name: "hemisphere",
       say: [
-        `u1 sets how far from the center of the disk: r is ${about(r)}. u2 sets the angle: theta is ${(u2 * 360).toFixed(1)}°.`,
-        `Lifted to the hemisphere, the point has height ${about(up)}: the new direction is ${degrees(up)} from the normal.`,
+        `u1 sets how far from the center of the disk: r is ${about(r)}. ` +
+          `u2 sets the angle: theta is ${(u2 * 360).toFixed(1)}°.`,
+        `Lifted to the hemisphere, the point has height ${about(up)}: ` +
+          `the new direction is ${degrees(up)} from the normal.`,
       ],
       values: {
         u1: digits(u1),
@@ -206,11 +214,15 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
       name: "frame",
       say: [
         isX
-          ? `|n · x| is ${about(Math.abs(normal[0]))}, so the x axis ${axisName} builds t.`
-          : `|n · x| is ${about(Math.abs(normal[0]))}, too close to 1: n is parallel to the x axis, so ${axisName} builds t.`,
+          ? `|n · x| is ${alongX}, so the x axis ${axisName} builds t.`
+          : `|n · x| is ${alongX}, too close to 1: ` +
+            `n is parallel to the x axis, so ${axisName} builds t.`,
         isUnit
           ? "Here n × axis has length 1 already, so normalizing t and b changes nothing."
-          : `n × axis has length ${about(bare)} before it is normalized. If t and b kept this length, the ray would leave ${degrees(bareCosine)} from the normal, not ${degrees(up)}. Over many photons, directions crowd around the normal.`,
+          : `n × axis has length ${about(bare)} before it is normalized. ` +
+            `If t and b kept this length, the ray would leave ${degrees(bareCosine)} ` +
+            `from the normal, not ${degrees(up)}. ` +
+            "Over many photons, directions crowd around the normal.",
       ],
       values: {
         normal: vectorText(normal),
@@ -237,7 +249,8 @@ function stepsOfScattering(run, hit, normalLine, arrow) {
       name: "ray",
       say: [
         `The new ray leaves along (x, y, z) in the frame: x t + y b + z n.`,
-        "It starts a little above the surface. The point hit is rounded and may lie below; a ray from there would meet the same surface again.",
+        "It starts a little above the surface. The point hit is rounded and may lie below; " +
+          "a ray from there would meet the same surface again.",
       ],
       values: {
         world_space_direction: vectorText(direction),

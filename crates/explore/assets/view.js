@@ -1,4 +1,4 @@
-// The box in 3-D: WebGL2 and an orbiting camera. It draws what it is given and knows nothing of photons' stories.
+// The box in 3-D: WebGL2 and an orbiting camera. It draws layers and knows no photon's story.
 
 const add = (a, b, by = 1) => [a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]];
 const scale = (a, by) => [a[0] * by, a[1] * by, a[2] * by];
@@ -11,7 +11,7 @@ const cross = (a, b) => [
 const length = (a) => Math.hypot(...a);
 const unit = (a) => scale(a, 1 / (length(a) || 1));
 
-/** The names of all colours, in the order of the shader's palette; the style sheet has their values. */
+/** The names of all colors, in the order of the shader's palette. The style sheet has values. */
 const COLORS = [
   "grey",
   "one",
@@ -34,7 +34,8 @@ const COLORS = [
 const SHAPES = { circle: 0, square: 1, diamond: 2, triangle: 3, ring: 4, cross: 5 };
 
 const SURFACE_VERTEX = `#version 300 es
-layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal; layout(location = 2) in vec3 color;
+layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 color;
 uniform mat4 camera; out vec3 at, n, c;
 void main() { at = position; n = normal; c = color; gl_Position = camera * vec4(position, 1); }`;
 const SURFACE_FRAGMENT = `#version 300 es
@@ -49,7 +50,7 @@ void main() {
 // (`polygonOffset` would do the same, but some drivers give other depths in every frame.)
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
-uniform mat4 camera; uniform vec3 eye; uniform float pixels, least, most, size, dim; uniform vec3 palette[16];
+uniform mat4 camera; uniform vec3 eye, palette[16]; uniform float pixels, least, most, size, dim;
 uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
@@ -61,23 +62,27 @@ void main() {
   gl_PointSize = wide;
   if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
   uint id = uint(gl_VertexID) + 1u;
-  c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255. : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
+  c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255.
+    : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
 }`;
 const DOT_FRAGMENT = `#version 300 es
-precision highp float; flat in vec4 c; flat in uint shape; flat in float wide; uniform bool pick; out vec4 o;
+precision highp float; flat in vec4 c; flat in uint shape; flat in float wide;
+uniform bool pick; out vec4 o;
 void main() {
   // Too small for a shape: a square, so that at least one pixel is drawn.
   if (pick || wide < 3.) { o = c; return; }
   vec2 p = abs(gl_PointCoord * 2. - 1.); float d = length(p);
-  bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88 : shape == 2u ? p.x + p.y < 1.
-    : shape == 3u ? p.x < gl_PointCoord.y * .95 : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
+  bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88
+    : shape == 2u ? p.x + p.y < 1. : shape == 3u ? p.x < gl_PointCoord.y * .95
+    : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
   if (!inside) discard;
   o = c;
 }`;
-// A line is a strip of two triangles, as wide as it is told in pixels.
+// A line is a strip of two triangles. Its width is in pixels.
 const LINE_VERTEX = `#version 300 es
 layout(location = 0) in vec3 a; layout(location = 1) in vec3 b; layout(location = 2) in vec4 color;
-layout(location = 3) in vec2 style; uniform mat4 camera; uniform vec3 eye; uniform vec2 size; out vec4 c; out float along;
+layout(location = 3) in vec2 style;
+uniform mat4 camera; uniform vec3 eye; uniform vec2 size; out vec4 c; out float along;
 flat out float dash;
 void main() {
   vec4 p = camera * vec4(mix(a, eye, .002), 1), q = camera * vec4(mix(b, eye, .002), 1);
@@ -147,7 +152,8 @@ class View {
   /** So many pixels a side are looked at around a click. */
   static PICK = 25;
 
-  /** Makes the layer `name` of `columns`: arrays with their number of components; `step` 1 for one entry an instance. */
+  /** Makes the layer `name` of `columns`: arrays with their number of components. With `step` 1
+   * there is one entry for each instance. */
   setLayer(name, count, columns, step = 0) {
     const { gl } = this;
     const layer = (this.layers[name] ??= { vao: gl.createVertexArray(), buffers: [] });
@@ -169,8 +175,9 @@ class View {
     this.draw();
   }
 
-  /** Shows dots at `positions`, each with a look (palette entry and shape; then 0 hidden, 1 plain, 2 lit) and the index of
-   * its face, or one beyond the last. They are drawn face by face, so that those on the far side can be left out. */
+  /** Shows dots at `positions`. A look is a palette entry and a shape, then 0 hidden, 1 plain or
+   * 2 lit. `faceOf` has the index of each dot's face, or one beyond the last. Dots are drawn face
+   * by face, so that those on the far side can be left out. */
   setDots(positions, looks, faceOf) {
     const { gl } = this,
       starts = new Uint32Array(this.faces.length + 2);
@@ -190,7 +197,7 @@ class View {
     gl.bindVertexArray(null);
   }
 
-  /** Draws the dots in sight. The first part of a face's dots is spread over all of it, since paths are in no order. */
+  /** Draws the dots in sight. Paths are in no order, so a part of a face's dots covers all of it. */
   drawFaces({ starts }, part) {
     const { gl, eye } = this;
     for (let face = 0; face <= this.faces.length; face++) {
@@ -237,7 +244,7 @@ class View {
     );
   }
 
-  /** Sets the camera: what it turns around, from where (radians), how far, how high its picture is. */
+  /** Sets the camera: its target, its angles in radians, its distance, its picture's height. */
   look(camera) {
     Object.assign((this.camera ??= {}), camera);
     const limit = Math.PI / 2 - 0.001;
@@ -246,7 +253,7 @@ class View {
     this.draw();
   }
 
-  /** While the camera moves, draws no more dots than are drawn in time; all of them as soon as it rests. */
+  /** While the camera moves, draws only as many dots as there is time for. At rest, draws all. */
   keepPace() {
     const now = performance.now(),
       since = now - (this.drawn ?? 0),
@@ -278,7 +285,7 @@ class View {
     return add(this.camera.target, this.axes().forward, -this.camera.distance);
   }
 
-  /** Half the height of the picture at distance 1. A narrow view is made higher, so that it shows all of a 4:3 picture. */
+  /** Half the height of the picture at distance 1. A narrow view is higher, to show all of 4:3. */
   get halfHeight() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     return this.camera.halfHeight * Math.max(1, 4 / 3 / (width / height));
@@ -396,7 +403,7 @@ class View {
     gl.uniform1f(program.at("most"), 30 * ratio);
     gl.uniform1f(program.at("dim"), isMark ? 1 : this.dim);
     gl.uniform1i(program.at("pick"), pick ? 1 : 0);
-    // A ray of the handout goes through the upper left corner of its pixel: half a pixel off the middle.
+    // The handout's rays go through upper left corners: half a pixel off the middle.
     gl.uniform2f(program.at("shift"), pick ? 0 : 1 / canvas.width, pick ? 0 : -1 / canvas.height);
     this.drawLayer(layer, blend && !pick, () => {
       if (isMark) gl.drawArrays(gl.POINTS, 0, layer.count);
@@ -428,8 +435,8 @@ class View {
     gl.bindVertexArray(null);
   }
 
-  /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1: dots are drawn again there, each in a colour
-   * of its own. */
+  /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1. Draws the dots there
+   * again, each in a color of its own. */
   pick(x, y) {
     const { gl, canvas } = this,
       side = View.PICK,
@@ -470,7 +477,8 @@ class View {
   }
 }
 
-/** Lets pointers, the wheel and the keyboard turn `view`; `onClick` is told of clicks, `onCentre` of double-clicks. */
+/** Lets pointers, the wheel and the keyboard turn `view`. Calls `onClick` for a click and
+ * `onCentre` for a double-click. */
 function orbit(view, onClick, onCentre) {
   const { canvas } = view;
   const pointers = new Map();

@@ -122,7 +122,8 @@ fn a_submission_shows_where_it_parts() {
 fn hostile_names_stay_names() {
     let Some(browser) = launch(true) else { return };
     let mut reference = traced("");
-    let name = "</script><script>window.hurt = 1</script><img src=x onerror='hurt=1'>{data}{script}\u{2028}.csv";
+    let name = "</script><script>window.hurt = 1</script><img src=x \
+                onerror='hurt=1'>{data}{script}\u{2028}.csv";
     reference.table.0[0].name = name.to_owned();
     let mut list = reference.list();
     list.records[10].position.x += 0.2;
@@ -136,6 +137,9 @@ fn hostile_names_stay_names() {
     assert_eq!(browser.text("document.querySelector('#table tbody th').textContent"), name);
     assert_eq!(browser.run("document.querySelectorAll('script').length"), 3);
     // Should anything get through all the same, the policy keeps it from running.
-    browser.run("document.body.append(Object.assign(document.createElement('script'), { textContent: 'window.hurt = 2' }))");
+    browser.run(
+        "document.body.append(Object.assign(document.createElement('script'), { textContent: \
+         'window.hurt = 2' }))",
+    );
     assert_eq!(browser.run("window.hurt"), json!(null));
 }

@@ -213,6 +213,7 @@ proptest! {
         let radius = |number: usize| 1.0 - roughness * photon_random(seed, number as u64)();
         let triangles = closed_mesh(level, |number, corner| radius(number) * corner);
         let scene = scene_of(&triangles);
+        let light = assignment8::create_scene().lights()[0];
         for number in 0..6_000_u64 {
             let mut rand = photon_random(seed ^ 1, number);
             let triangle = &triangles[number as usize % triangles.len()];
@@ -223,7 +224,7 @@ proptest! {
             let from = from * 0.95 * rand();
             // Rays go anywhere, to edges and to corners, whatever they meet on their way.
             let direction = match number % 3 {
-                0 => assignment8::create_scene().lights()[0].generate_random_photon_ray(&mut rand).ray_direction(),
+                0 => light.generate_random_photon_ray(&mut rand).ray_direction(),
                 1 => (a.lerp(b, rand()) - from).normalize(),
                 _ => (c - from).normalize(),
             };

@@ -112,7 +112,7 @@ proptest! {
             // Every other ray aims at a corner or at the middle of an edge.
             let aim = match triangles.get(place / 2) {
                 Some(triangle) if place % 4 == 0 => triangle.vertices[0],
-                Some(triangle) if place % 4 == 2 => 0.5 * (triangle.vertices[0] + triangle.vertices[1]),
+                Some(Triangle { vertices: [a, b, _], .. }) if place % 4 == 2 => 0.5 * (*a + *b),
                 _ => *target + Vec3::splat(shift),
             };
             let Some(direction) = (aim - origin).try_normalize() else {

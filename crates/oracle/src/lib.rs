@@ -6,12 +6,13 @@
 //! follows n_{k+1}(y) = integral over x of P_r(x) n_k(x) cos_x |cos_y| V / (pi r^2) dA, and N_k is
 //! the integral of n_k.
 //!
-//! | hits | method | error |
-//! |---|---|---|
-//! | N1 | closed form: solid angles of the exactly lit pieces | rounding |
-//! | N2 | adaptive cubature of n1 P_r F, F the closed form factor of the exactly visible pieces | refinement |
-//! | N3 | adaptive cubature of n2 P_r F, n2 gathered from the exactly visible lit pieces (full accuracy only) | refinement |
-//! | later, covariance | piecewise linear collocation with exact form factors, on two meshes | a part of their difference |
+//! - N1 is a closed form: solid angles of the exactly lit pieces. Its error is rounding.
+//! - N2 is an adaptive cubature of n1 P_r F. F is the closed form factor of the exactly visible
+//!   pieces. The refinement bounds its error.
+//! - N3 is an adaptive cubature of n2 P_r F at full accuracy. n2 is gathered from the exactly
+//!   visible lit pieces. The refinement bounds its error.
+//! - Later hits and the covariance come from piecewise linear collocation with exact form factors
+//!   on two meshes. Their error is a part of the difference between the meshes.
 //!
 //! Facets block and receive on both sides and scatter to the side of their normal only, with a
 //! cosine law. Light comes from points, equally in all directions. Results do not depend on units,
