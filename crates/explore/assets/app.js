@@ -614,16 +614,14 @@ class Page {
     const { hits, light } = story,
       reached = step.name === "emission" ? -1 : step.bounce;
     const points = [light.position, ...hits.map((hit) => hit.position)];
-    const lines = points
-      .slice(1)
-      .map((b, i) => ({
-        a: points[i],
-        b,
-        color: "path",
-        width: i <= reached ? 3 : 1.5,
-        dash: i <= reached ? 0 : 7,
-        alpha: i <= reached ? 1 : 0.6,
-      }));
+    const lines = points.slice(1).map((b, i) => ({
+      a: points[i],
+      b,
+      color: "path",
+      width: i <= reached ? 3 : 1.5,
+      dash: i <= reached ? 0 : 7,
+      alpha: i <= reached ? 1 : 0.6,
+    }));
     if (story.ending === "left_the_scene") {
       const way = hits.length ? hits.at(-1).direction : story.direction,
         end = points.at(-1);

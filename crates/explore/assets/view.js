@@ -197,7 +197,7 @@ class View {
     gl.bindVertexArray(null);
   }
 
-  /** Draws the dots in sight. Paths are in no order, so a part of a face's dots covers all of it. */
+  /** Draws the dots in sight. Paths are in no order, so a part of the dots covers a whole face. */
   drawFaces({ starts }, part) {
     const { gl, eye } = this;
     for (let face = 0; face <= this.faces.length; face++) {
