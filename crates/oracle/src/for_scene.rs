@@ -16,7 +16,7 @@ pub struct FacetId {
     pub facet: usize,
 }
 
-/// Expected hits on every face of `scene` when its lights send out `photons_per_light`, and the
+/// Expected hits on every face of `scene` when its lights emit `photons_per_light`, and the
 /// faces in the order of the hits, which is the model file's.
 pub fn expect_for_scene(
     scene: &Scene,

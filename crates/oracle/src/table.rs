@@ -57,7 +57,7 @@ pub struct TotalRow {
 }
 
 impl ExpectedTable {
-    /// Computes the table of `scene` when its lights send out `photons_per_light`.
+    /// Computes the table of `scene` when its lights emit `photons_per_light`.
     pub fn compute(scene: &Scene, photons_per_light: &[u64], accuracy: Accuracy) -> Self {
         let (ids, expectation) = expect_for_scene(scene, photons_per_light, accuracy);
         Self::of(scene, &ids, &expectation)

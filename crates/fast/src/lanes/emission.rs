@@ -8,7 +8,7 @@ use super::chacha;
 use super::first_hit::Aimed;
 use super::outlook::{UNKNOWN, aim, rough_cell};
 
-/// How many photons a kernel call sends out. Their blocks fill half of a small first-level cache.
+/// How many photons a kernel call emits. Their blocks fill half of a small first-level cache.
 pub const GROUP: usize = 128;
 /// How many numbers the five tries of the first block take. Of 42 photons one needs more.
 pub const DRAWN_IN_VAIN: u32 = 15;
@@ -37,7 +37,7 @@ impl Default for Emission {
     }
 }
 
-/// Sends out the photons from number `first` on.
+/// Emits the photons from number `first` on.
 pub struct Emit<'a> {
     /// The key of all random numbers.
     pub seed: u64,
