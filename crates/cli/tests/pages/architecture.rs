@@ -1,0 +1,56 @@
+//! The page on the architecture, its drawing, and the manifests.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use crate::{read, root};
+
+const ROOT: &str = "photon-mapping";
+
+/// Which crates each crate uses, by folder, as the manifests have it.
+fn manifests() -> BTreeMap<String, Vec<String>> {
+    let entries = fs::read_dir(root().join("crates")).expect("a folder of the project");
+    let names = entries.map(|entry| entry.expect("can be read").file_name());
+    let names: BTreeSet<_> = names.map(|name| name.into_string().expect("is text")).collect();
+    let uses = |name: &String| {
+        let manifest = read(format!("crates/{name}/Cargo.toml"));
+        let section = manifest.split("[dependencies]\n").nth(1).expect("a section");
+        let lines = section.split("\n[").next().expect("its lines").lines();
+        let used = lines.filter_map(|line| line.split(['.', ' ']).next());
+        let is_ours = |used: &&str| *used == ROOT || names.contains(*used);
+        (name.clone(), used.filter(is_ours).map(str::to_owned).collect())
+    };
+    names.iter().map(uses).collect()
+}
+
+#[test]
+fn table_of_crates_has_what_the_manifests_have() {
+    let page = read("docs/architecture.md");
+    let rows = page.lines().filter(|line| line.starts_with("|`crates/"));
+    let row = |row: &str| {
+        let cells: Vec<_> = row.trim_matches('|').split('|').collect();
+        let name = cells[0].trim_matches('`').strip_prefix("crates/").expect("a folder").to_owned();
+        let used = cells[2].replace("root", ROOT);
+        (name, used.split(", ").map(str::to_owned).collect::<Vec<_>>())
+    };
+    assert_eq!(rows.map(row).collect::<BTreeMap<_, _>>(), manifests());
+}
+
+/// A line for every use that no longer way implies; tests alone use fixtures.
+#[test]
+fn drawing_has_what_the_manifests_have() {
+    let uses = manifests();
+    let mut expected = BTreeSet::new();
+    for (name, used) in uses.iter().filter(|(name, _)| *name != "fixtures") {
+        for below in used {
+            let by_another = |other: &&String| uses.get(*other).is_some_and(|u| u.contains(below));
+            if used.iter().find(by_another).is_none() {
+                expected.insert(format!("{name}-to-{below}"));
+            }
+        }
+    }
+    let drawing = read("docs/architecture.svg");
+    let lines = drawing.split("<line id=\"").skip(1);
+    let drawn = lines.map(|line| line.split('"').next().expect("an id").to_owned());
+    assert_eq!(drawn.collect::<BTreeSet<_>>(), expected);
+}

@@ -1,0 +1,79 @@
+//! The wording of pages, and the width of their lines and of the code's.
+
+use crate::markdown::texts;
+use crate::{pages, project_files};
+
+/// Pages and folders whose wording is not done yet. Only lengths and words are excused.
+const UNFINISHED: [&str; 11] = [
+    "docs/check.md",
+    "docs/comparing.md",
+    "docs/grading.md",
+    "interop/cpp",
+    "crates/check",
+    "crates/cli",
+    "crates/compare",
+    "crates/grading",
+    "crates/model",
+    "crates/photon-list",
+    "crates/variants",
+];
+
+const LONGEST_SENTENCE: usize = 30;
+const WIDEST_LINE: usize = 100;
+
+/// Words that the glossary replaces.
+const REPLACED_WORDS: [&str; 5] = ["sent out", "send out", "sends out", "looks on", "look on"];
+
+fn is_unfinished(path: &str) -> bool {
+    UNFINISHED.iter().any(|unfinished| path.starts_with(unfinished))
+}
+
+fn words(sentence: &str) -> usize {
+    sentence.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
+}
+
+fn sentences(text: &str) -> Vec<&str> {
+    let mut sentences = Vec::new();
+    let mut start = 0;
+    for (place, _) in text.match_indices(['.', '!', '?']) {
+        let rest = text[place + 1..].trim_start_matches([')', '"', '\'']);
+        if rest.is_empty() || rest.starts_with(' ') {
+            sentences.push(&text[start..=place]);
+            start = place + 1;
+        }
+    }
+    sentences.push(&text[start..]);
+    sentences
+}
+
+#[test]
+fn sentences_are_short() {
+    let mut faults = String::new();
+    for (path, page) in pages().iter().filter(|(path, _)| !is_unfinished(path)) {
+        for text in texts(page) {
+            for sentence in sentences(&text).iter().filter(|s| words(s) > LONGEST_SENTENCE) {
+                faults += &format!("{path}: {} words: {}\n", words(sentence), sentence.trim());
+            }
+        }
+    }
+    assert!(faults.is_empty(), "at most {LONGEST_SENTENCE} words:\n{faults}");
+}
+
+#[test]
+fn lines_are_narrow_and_words_are_the_glossarys() {
+    let mut faults = String::new();
+    let all = project_files(&[".rs", ".js", ".css", ".html", ".md"]);
+    for (path, text) in all.iter().filter(|(path, _)| !is_unfinished(path)) {
+        for (number, line) in (1..).zip(text.lines()) {
+            // Tables and pictures of Markdown cannot be broken.
+            let is_whole = path.ends_with(".md") && line.starts_with(['|', '!', '[']);
+            if !is_whole && line.chars().count() > WIDEST_LINE {
+                faults += &format!("{path}:{number}: {} columns\n", line.chars().count());
+            }
+            for word in REPLACED_WORDS.iter().filter(|word| line.contains(**word)) {
+                faults += &format!("{path}:{number}: '{word}' is not in the glossary\n");
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
+}
