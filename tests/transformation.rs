@@ -122,10 +122,10 @@ fn reflected_rays_start_above_the_surface() {
     assert!(hits > 5_000, "{hits}");
 }
 
-/// Photons that start within 1e-4 of the edge at which the short box's front meets the floor, half
-/// of them on the box and half on the floor, in all directions of the hemisphere. Every other pair
-/// starts within twice the rounding of a point, so that half of those lie on the wrong side of the
-/// edge: no rule could decide where directions along the other surface go, so they are left out.
+/// Photons that start within 1e-4 of the edge at which the short box's front meets the floor. Half
+/// start on the box and half on the floor, in all directions of the hemisphere. Every other pair
+/// starts within twice the rounding of a point, so half of those lie on the wrong side of the edge.
+/// No rule can decide where directions along the other surface go, so they are left out.
 #[test]
 fn photons_scattered_where_a_box_meets_the_floor_stay_outside() {
     let scene = handout(148, 1).stored_scene;

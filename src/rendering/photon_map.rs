@@ -4,24 +4,24 @@ use glam::Vec3;
 
 /// Photon positions, sorted into the cells of a grid.
 ///
-/// The only question asked of the map has a fixed size, so a hashed grid with cells larger than the
-/// cube looks into at most eight short lists. The framework uses a kd-tree; photons that share a
-/// coordinate, as all those on the floor do, unbalance many of them, and a grid does not mind.
-/// Beside the kd-tree of the crate kiddo, with 1,000,000 points, a grid sorted by counting was
-/// built 7 times faster and asked twice as fast at this radius; and every answer is the same, since
-/// neither decides by anything but the coordinates.
+/// The only question has a fixed size, so a hashed grid with cells larger than the cube looks into
+/// at most eight short lists. The framework uses a kd-tree. Photons that share a coordinate, as all
+/// those on the floor do, unbalance many kd-trees; a grid does not mind. With 1,000,000 points, a
+/// grid sorted by counting was built 7 times faster than the kd-tree of the crate kiddo, and
+/// answered twice as fast at this radius. Every answer is the same, because both decide by
+/// coordinates alone.
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
     /// The photons of bucket b are `positions[starts[b]..starts[b + 1]]`.
     positions: Vec<Vec3>,
     starts: Vec<u32>,
-    /// A position that is not a number is near everything: so it is in the framework's tree, and a
-    /// picture that is red all over tells a student more than one that looks right.
+    /// A position that is not a number is near everything, as in the framework's tree. A picture
+    /// that is red all over tells a student more than one that looks right.
     has_nan: bool,
 }
 
-/// The edge of a cell, in scene units: about twice the edge of the cube around a dot, which then
-/// reaches into 3.2 cells on average; with cells as small as the cube it would be 7.8.
+/// The edge of a cell, in scene units: about twice the edge of the cube around a dot. The cube then
+/// reaches into 3.2 cells on average. With cells as small as the cube it would be 7.8.
 const CELL: f32 = 0.0125;
 
 impl PhotonMap {

@@ -1,9 +1,9 @@
 //! Bounding boxes: which mesh objects a ray can meet. They save time and change no hit.
 //!
-//! The triangle test places each corner up to 6 roundings off, each at most 2^-24 of the largest
-//! distance M along an axis from the ray's start to a corner. So a box that is larger by 2^-19 M on
-//! each side holds every hit that the test can find, with room for the roundings of the box test
-//! itself (Ize, *Robust BVH Ray Traversal*, JCGT 2013).
+//! The triangle test places each corner up to 6 roundings off. Each is at most 2^-24 of M, the
+//! largest distance along an axis from the ray's start to a corner. So a box that is larger by
+//! 2^-19 M on each side holds every hit that the test can find. That leaves room for the roundings
+//! of the box test itself (Ize, *Robust BVH Ray Traversal*, JCGT 2013).
 
 use std::ops::Range;
 

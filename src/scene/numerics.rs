@@ -68,8 +68,8 @@ impl Scene {
     /// How far along the normal a ray starts that leaves `triangle` at `point`, hit by a ray at the
     /// distance `t`: always [`LARGE_EPSILON`] in the handout's scene.
     ///
-    /// Where a scene has much smaller triangles, the offset shrinks in proportion to the smallest,
-    /// but never below what rounding may have done to the point: a few units in the last place
+    /// Where a scene has much smaller triangles, the offset shrinks in proportion to the smallest.
+    /// It never falls below what rounding may have done to the point: a few units in the last place
     /// of the lengths it was computed from.
     pub fn offset(&self, triangle: usize, point: Vec3, t: f32) -> f32 {
         self.rounding.epsilon.max(self.rounding_at(triangle, point, t))
@@ -108,9 +108,9 @@ impl Scene {
     /// `triangle`; `None` where it met the back.
     ///
     /// A ray that touches the edge of a solid enters and leaves at once, and the back may seem to
-    /// come first: then a front at the same place shares a corner or its plane. A ray that
-    /// grazes the surface below which it started may have a [`Ray::start_error`] that is too
-    /// short: then that front is within the error of the start.
+    /// come first. Then a front at the same place shares a corner or its plane. A ray that grazes
+    /// the surface below which it started may have a [`Ray::start_error`] that is too short. Then
+    /// that front is within the error of the start.
     fn front_beside(&self, ray: &Ray, triangle: usize, t: f32) -> Option<(usize, f32)> {
         let (back, direction) = (&self.triangles[triangle], ray.ray_direction());
         let rounding = self.rounding_at(triangle, ray.ray_position(t), t);

@@ -121,14 +121,14 @@ impl Triangle {
         a.cross(b).length() / self.longest_edge()
     }
 
-    /// The distance t at which `ray` meets the triangle, from either side; `None` when it passes
-    /// beside it, within its plane, or when the triangle lies behind the ray's start: t > 0,
-    /// but for the [`Ray::start_error`].
+    /// The distance t at which `ray` meets the triangle, from either side. `None` when it passes
+    /// beside it or within its plane, or when the triangle lies behind the ray's start: t > 0, but
+    /// for the [`Ray::start_error`].
     ///
     /// The framework uses the test of Moller and Trumbore, which can let a ray slip between two
     /// triangles that share an edge. This is the watertight test of Woop, Benthin and Wald
-    /// (*Watertight Ray/Triangle Intersection*, JCGT 2013): seen along the ray, the sign of each
-    /// edge function is exact, so the two triangles at an edge can never both refuse a ray.
+    /// (*Watertight Ray/Triangle Intersection*, JCGT 2013). Seen along the ray, the sign of each
+    /// edge function is exact. So the two triangles at an edge can never both refuse a ray.
     pub fn intersect(&self, ray: &ShearedRay) -> Option<f32> {
         let [a, b, c] = &self.vertices;
         let t = meet([ray.see(a), ray.see(b), ray.see(c)])?;

@@ -268,8 +268,8 @@ fn faces(run: &Run) -> Vec<Face> {
     faces
 }
 
-/// The handout's camera, or one that sees all of another scene: what it turns around, how far from
-/// it, in what direction (radians), and half the height of its picture at distance 1.
+/// The handout's camera, or one that sees all of another scene. It has the point it turns around,
+/// the distance, the direction in radians, and half the height of its picture at distance 1.
 fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
     let camera = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
     let half_height = camera.half_height;

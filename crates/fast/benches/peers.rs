@@ -42,9 +42,11 @@ fn photons(count: u64, threads: usize) {
     });
 }
 
-/// Prints seconds for the build, nanoseconds a ray, and how many rays hit, for the mesh and the
-/// rays in the file `path`: their numbers as u64, then f32, three corners a triangle, origins,
-/// directions.
+/// Traces the rays of the file `path` into its mesh. Prints seconds for the build, nanoseconds a
+/// ray, and how many rays hit.
+///
+/// The file has the number of triangles and of rays as u64. Then come f32: three corners a
+/// triangle, origins, directions.
 fn mesh(path: &str) {
     let mut bytes = Vec::new();
     let mut file = std::fs::File::open(path).expect("the mesh");

@@ -17,8 +17,8 @@ const MOST_WAITING: usize = 1 << 19;
 /// The photons of a run as they come, and the pixels of a picture that those before them turn red.
 ///
 /// A photon map of all photons would hold 12 bytes and more for each. Whether a pixel is red is an
-/// *or* over photons, so a map of some of them at a time gives the same picture; of those before,
-/// only the red pixels are kept.
+/// *or* over photons, so a map of some of them at a time gives the same picture. Of earlier
+/// photons, only the red pixels are kept.
 #[derive(Clone, Debug)]
 pub struct Dots {
     camera: PerspectiveCamera,

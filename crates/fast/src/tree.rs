@@ -1,21 +1,24 @@
 //! A tree of boxes for scenes of many triangles. The handout's scene has none.
 //!
-//! **Hits do not depend on the tree.** It only leaves out triangles; each that remains is tested by
-//! [`photon_mapping::scene::triangle`], and of hits at the same distance the lowest index counts,
-//! as without a tree. So it must never leave out a triangle that the test would accept. The test
-//! sees each corner where it is up to a few roundings: one of `corner - origin`, three of the
-//! shear, each at most 2^-24 of the largest coordinate M of `corner - origin`. A ray that it
-//! accepts therefore passes the exact triangle within 6 * 2^-24 M, and its rounded t lies within 12
-//! * 2^-24 M of the exact distance. Every box is taken larger by 2^-19 M on each side (M over the
-//! whole scene, found once for a ray), and a box is passed over for being too far only beyond twice
-//! that. That is 32 of these roundings, and covers those of the box test itself (Ize, *Robust BVH
-//! Ray Traversal*, JCGT 2013).
+//! **Hits do not depend on the tree.** It only leaves out triangles.
+//! [`photon_mapping::scene::triangle`] tests each that remains, and of hits at the same distance
+//! the lowest index counts, as without a tree.
 //!
-//! Eight boxes a node, so that few nodes are waited for one after another, and four triangles a
-//! leaf, because every processor of the common targets has vectors of four; built from the top by
-//! the surface area heuristic with bins (Wald, *On fast Construction of SAH-based Bounding Volume
-//! Hierarchies*, 2007). Our own, because the crates for such trees bring their own triangle tests
-//! or boxes that are not conservative.
+//! So the tree must never leave out a triangle that the test would accept. The test sees each
+//! corner a few roundings off: one of `corner - origin` and three of the shear. Each is at most
+//! 2^-24 of the largest coordinate M of `corner - origin`. A ray that it accepts therefore passes
+//! the exact triangle within 6 * 2^-24 M. Its rounded t lies within 12 * 2^-24 M of the exact
+//! distance.
+//!
+//! Every box is larger by 2^-19 M on each side, with M over the whole scene, found once for a ray.
+//! A box counts as too far only beyond twice that. That is 32 of these roundings, and covers those
+//! of the box test itself (Ize, *Robust BVH Ray Traversal*, JCGT 2013).
+//!
+//! A node has eight boxes, so that few nodes are waited for one after another. A leaf has four
+//! triangles, because every processor of the common targets has vectors of four. The tree is built
+//! from the top by the surface area heuristic with bins (Wald, *On fast Construction of SAH-based
+//! Bounding Volume Hierarchies*, 2007). It is our own, because the crates for such trees bring
+//! their own triangle tests, or boxes that are not conservative.
 
 use std::sync::Arc;
 
@@ -394,8 +397,8 @@ struct Halved<'items> {
     bounds: Bounds,
     halves: [Part<'items>; 2],
     /// At `n - 1`, how many nodes are entered in this part if it becomes at most `n` boxes of the
-    /// node above it: the sum of the areas of all those nodes, to which the numbers of rays
-    /// are proportional.
+    /// node above it. It is the sum of the areas of all those nodes, because the numbers of rays
+    /// are proportional to areas.
     nodes: [f32; WIDTH],
 }
 

@@ -1,9 +1,9 @@
 //! Third and later hits, and how the hits of one path go together, on a mesh.
 //!
-//! With A the operator (A f)(x) = P_r(x) * mean of f over the cosine lobe of x, and f_b = 1 on
-//! facet b, the expected hits are N_k,b = integral of n2 A^(k-2) f_b. On the mesh (collocation,
-//! piecewise linear) n2 becomes weights a_2 at the nodes, and a_{k+1} = A^T a_k. The first factor,
-//! g_b = A f_b = P_r times the form factor of b, is exact at every node: N_{k+1},b = a_k . g_b.
+//! A is the operator (A f)(x) = P_r(x) * mean of f over the cosine lobe of x. With f_b = 1 on facet
+//! b, the expected hits are N_k,b = integral of n2 A^(k-2) f_b. On the mesh (collocation, piecewise
+//! linear) n2 becomes weights a_2 at the nodes, and a_{k+1} = A^T a_k. The first factor, g_b = A
+//! f_b = P_r times the form factor of b, is exact at every node: N_{k+1},b = a_k . g_b.
 
 use super::direct::Direct;
 use super::mesh::{Mesh, Row, View};
@@ -39,7 +39,7 @@ const NEGLIGIBLE: f64 = 1e-15;
 
 /// Follows hits from the second on over a mesh, at most `most` of them.
 ///
-/// `known` holds the exact hits per plate of bounces 1, 2 and, if known, 3; the weights at the
+/// `known` holds the exact hits per plate of bounces 1, 2 and, if known, 3. The weights at the
 /// nodes are scaled to them plate by plate, which takes out most of the quadrature's error.
 /// `surface_of` numbers each plate's surface.
 pub fn follow(

@@ -68,8 +68,8 @@ impl Direct {
         share * cosine / (4.0 * PI * squared)
     }
 
-    /// Density of second hits at `point` of plate `at`, per emitted photon and scene unit of area:
-    /// the integral over the lit points x of P_r n1(x) cos cos / (pi r^2), of those that
+    /// Density of second hits at `point` of plate `at`, per emitted photon and scene unit of area.
+    /// It is the integral over the lit points x of P_r n1(x) cos cos / (pi r^2), of those that
     /// scatter towards the point.
     ///
     /// Exactly visible pieces, so that the integrand is smooth. The closed form factor of each

@@ -1,10 +1,10 @@
 //! Expected hits without tracing: how often photons from point lights hit every facet, bounce by
 //! bounce.
 //!
-//! A deterministic calculation in f64 from the geometry alone, to judge a photon tracer by. With
-//! n1(x) = |cos| V / (4 pi r^2) the density of first hits per emitted photon, every later hit
-//! follows n_{k+1}(y) = integral over x of P_r(x) n_k(x) cos_x |cos_y| V / (pi r^2) dA, and N_k is
-//! the integral of n_k.
+//! A deterministic calculation in f64 from the geometry alone, to judge a photon tracer by. The
+//! density of first hits per emitted photon is n1(x) = |cos| V / (4 pi r^2). Every later density is
+//! n_{k+1}(y) = integral over x of P_r(x) n_k(x) cos_x |cos_y| V / (pi r^2) dA. N_k is the integral
+//! of n_k.
 //!
 //! - N1 is a closed form: solid angles of the exactly lit pieces. Its error is rounding.
 //! - N2 is an adaptive cubature of n1 P_r F. F is the closed form factor of the exactly visible
@@ -68,10 +68,10 @@ pub struct Emitter {
 
 /// How much work to spend.
 ///
-/// Time grows a little faster than the square of the number of facets: each of the facets is looked
-/// at from points on every other, past those that may stand between. Up to 40 facets are cut along
-/// each other's planes; scenes of more get coarser meshes for their size, and larger errors: about
-/// 5 % of the hits after the third for a hundred facets, of their own order for three hundred.
+/// Time grows a little faster than the square of the number of facets, because each facet is seen
+/// from points on every other, past those between. Up to 40 facets are cut along each other's
+/// planes. Larger scenes get coarser meshes for their size, and larger errors. They are about 5 %
+/// of the hits after the third for a hundred facets, and as large as these hits for three hundred.
 /// Judge by the errors given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {

@@ -172,9 +172,9 @@ impl Mesh {
         Branch::Cell(self.cells.len() - 1)
     }
 
-    /// Adds to `row` the weights w with which a function, linear on each cell, enters its mean over
-    /// what `seen`, a piece of plate `target`, fills of the cosine lobe of `eye`: integral of f
-    /// cos cos / (pi r^2) = sum of w f(node).
+    /// Adds weights w to `row`, with integral of f cos cos / (pi r^2) = sum of w f(node), for a
+    /// function f that is linear on each cell. The integral is over what `seen`, a piece of plate
+    /// `target`, fills of the cosine lobe of `eye`.
     ///
     /// Exact if the function is constant; else the mean position in each cell is a quadrature.
     pub fn gather(&self, scene: &Scene, view: &View, target: usize, seen: Polygon, row: &mut Row) {

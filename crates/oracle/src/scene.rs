@@ -1,5 +1,5 @@
-//! The scene as the oracle sees it: facets brought to unit size, planes turned to the scattering
-//! side, and for every pair of facets the short list of others that can stand between them.
+//! The scene as the oracle sees it. Facets have unit size, and planes are turned to the scattering
+//! side. Every pair of facets has the short list of others that can stand between them.
 
 use super::polygon::{Plane, Polygon, area_vector, keep, range, side_planes, subtract};
 use super::{Emitter, Facet};

@@ -247,9 +247,9 @@ fn mesh_of(scene: &Scene, most: usize, widths: Option<&'static [f64]>) -> Mesh {
 /// Bounces of which the relative differences are compared: later ones are alike.
 const BOUNCES_COMPARED: usize = 6;
 
-/// Which part of the difference between two meshes is a bound on the error of the finer one, which
-/// has `refinement` times as many cells: functions that are linear on each cell err as the cells'
-/// area, or less (Richardson 1911). `safety` times that, but no more than all of it.
+/// Which part of the difference between two meshes bounds the error of the finer one. It has
+/// `refinement` times as many cells. Functions that are linear on each cell err as the cells' area,
+/// or less (Richardson 1911). `safety` times that, but no more than all of it.
 fn left_over(refinement: f64, safety: f64) -> f64 {
     (safety / (refinement - 1.0).max(f64::MIN_POSITIVE)).min(1.0)
 }

@@ -12,8 +12,8 @@ use photon_mapping::photon_list::PhotonRecord;
 pub struct Tally {
     names: Vec<String>,
     counts: Vec<Vec<u64>>,
-    /// The emitted photon whose records are coming in, and how many came beyond the bounces that
-    /// have a column of their own, by surface: their spread is not known in advance.
+    /// The emitted photon whose records are coming in. The next two fields count, by surface, those
+    /// beyond the bounces with a column of their own: their spread is not known in advance.
     current: u32,
     late_of_current: Vec<u64>,
     late_squares: Vec<u64>,

@@ -1,8 +1,8 @@
 //! The oracle against what is known.
 //!
-//! The handout's figures come from an independent calculation, checked by Monte Carlo (but for the
-//! last digit of N2 on the tall box, see `solve.rs`); the covariances from 1e8 paths
-//! of an independent tracer, with a standard error of about 7e-6.
+//! The handout's figures come from an independent calculation, checked by Monte Carlo, but for the
+//! last digit of N2 on the tall box (see `solve.rs`). The covariances come from 1e8 paths of an
+//! independent tracer. Their standard error is about 7e-6.
 
 use super::fixtures::{FLOOR, RIGHT_WALL, SHORT_BOX, TALL_BOX, cube, facet, handout};
 use super::{Accuracy, Bounded, Emitter, Expectation, Facet, expect};

@@ -134,14 +134,15 @@ struct Element {
 
 /// Integrates a vector of `count` functions over tagged triangles.
 ///
-/// Each triangle is compared with its four quarters; while the errors sum to more than `tolerance`,
-/// the triangles that cause most of it are replaced by their quarters. Values are the quarters'
-/// sums. Their errors are taken as the whole difference from their parent: it is a third where the
-/// integrand has a kink or jumps at a point, as four quarters err a fourth of the whole, and far
-/// less where it is smooth. More than that would be cautious, were it not for narrow
-/// features between the points, which parent and quarters miss alike: in the handout's scene they
-/// bring the sum of all such errors, taken without regard to sign, down to about the error that is
-/// left. Ends early, with a larger error, after `most` evaluations.
+/// Each triangle is compared with its four quarters. While the errors sum to more than `tolerance`,
+/// quarters replace the triangles that cause most of it. Values are the quarters' sums. Ends early,
+/// with a larger error, after `most` evaluations.
+///
+/// The error of a value is the whole difference from its parent. That is three times the true error
+/// where the integrand has a kink or jumps at a point, because four quarters err a fourth of the
+/// whole. Where the integrand is smooth, the true error is far less. Parent and quarters both miss
+/// narrow features between their points. In the handout's scene these bring the sum of all such
+/// errors, without regard to sign, down to about the error that is left.
 pub fn integrate(
     rule: &Rule,
     triangles: Vec<(usize, [DVec3; 3])>,

@@ -48,7 +48,7 @@ pub struct Section {
 }
 
 /// Measures all that `plan` asks for, and gives the files of the report: names out of [`FILES`],
-/// and what is in them. `progress` is told how many more photons have been traced.
+/// and what is in them. Calls `progress` with how many more photons have been traced.
 pub fn run(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Vec<(&'static str, String)> {
     let speed = speed_runs::measure(plan, progress);
     let sections = [

@@ -29,9 +29,9 @@ impl Estimate {
     }
 }
 
-/// `statistic` of `groups` of runs, with its interval by Tukey's jackknife (1958): each run in turn
-/// is left out, and what that changes says how far the statistic is off and how far it scatters. No
-/// law of the errors is assumed, and what the cells of one run have in common is in it.
+/// `statistic` of `groups` of runs, with its interval by Tukey's jackknife (1958). Each run in turn
+/// is left out. What that changes says how far the statistic is off and how far it scatters. No law
+/// of the errors is assumed, and what the cells of one run have in common is in it.
 pub fn jackknife(groups: &[Runs], statistic: impl Fn(&[Runs]) -> f64) -> Estimate {
     let value = statistic(groups);
     let (mut bias, mut variance, mut fewest) = (0.0, 0.0, usize::MAX);
@@ -79,8 +79,10 @@ pub fn variance_of_one(sizes: &[u64], groups: &[Runs]) -> Estimate {
     jackknife(groups, of_one).map(f64::exp)
 }
 
-/// The slope of the logarithm of the RMS over that of `sizes`, by least squares: one slope for all
-/// cells, a height for each, so that a cell may be missing at some sizes. `expected` is how many
+/// The slope of the logarithm of the RMS over that of `sizes`, by least squares. All cells share
+/// one slope, and each has a height, so a cell may be missing at some sizes. `expected` is how many
+/// photons each cell expects for one that is emitted. None where no cell expects enough at two
+/// sizes.
 /// photons each cell expects for one that is emitted. None where no cell expects enough at two
 /// sizes.
 pub fn log_log_slope(sizes: &[u64], groups: &[Runs], expected: &[f64]) -> Option<Estimate> {

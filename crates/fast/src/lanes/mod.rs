@@ -1,22 +1,29 @@
 //! The fast path: many photons side by side, to the bits of
 //! [`PhotonMappingRenderer::trace_photon`]. Nobody needs to read this to understand photon mapping.
 //!
-//! A wave of photons takes each step together: [`emission`] draws their directions in the lanes of
-//! the processor's vectors, [`outlook`] tells what a photon from a light may meet and [`first_hit`]
-//! what it meets, [`closest_hit`] what a scattered one meets, [`scattering`] sends those that
-//! survive the roulette on, and [`wave`] is the loop around them. [`picture`] sends camera and
-//! shadow rays the same way. [`width`] chooses the vector instructions when the program runs.
+//! A wave of photons takes each step together:
 //!
-//! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and
-//! this module may only be another order of the same roundings. What can be shared is called, not
-//! copied: the edge functions, the frame of a surface, the offset of a ray, the shares of the
-//! lights, and scalar tracing wherever a lane is in doubt. What must be written again is small, one
-//! formula a file, and each has a test that holds it to the scalar code by bits, exhaustively where
-//! there are few enough inputs. Over all of it, `crates/variants/tests/lanes.rs` traces random
-//! scenes, lights, seeds, ranges and bounces through both paths and every width, and compares
-//! records by bits; and the golden hash is computed both ways. Who changes `trace_photon` sees
-//! these tests fail until the same change is made here. Every run also traces a sample of its
-//! photons both ways ([`crate::trace`]).
+//! - [`emission`] draws their directions in the lanes of the processor's vectors.
+//! - [`outlook`] tells what a photon from a light may meet, and [`first_hit`] what it meets.
+//! - [`closest_hit`] tells what a scattered photon meets.
+//! - [`scattering`] gives those that survive the roulette a new direction.
+//! - [`wave`] is the loop around them.
+//!
+//! [`picture`] traces camera and shadow rays in the same way. [`width`] chooses the vector
+//! instructions when the program runs.
+//!
+//! **How the two paths stay the same.** `trace_photon` is the specification. This module may only
+//! do the same roundings in another order.
+//!
+//! - It calls what can be shared: the edge functions, the frame of a surface, the offset of a ray,
+//!   the shares of the lights. Where a lane is in doubt, it traces that photon with scalar code.
+//! - What it must write again is small, one formula a file. A test compares each with the scalar
+//!   code by bits, for all inputs where there are few enough.
+//! - `crates/variants/tests/lanes.rs` traces random scenes, lights, seeds, ranges and bounces
+//!   through both paths at every width, and compares records by bits.
+//! - Every run traces a sample of its photons both ways ([`crate::trace`]).
+//!
+//! If you change `trace_photon`, these tests fail until you make the same change here.
 
 pub mod chacha;
 pub mod closest_hit;
@@ -47,10 +54,16 @@ use width::Width;
 
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
 ///
-/// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, all triangles
-/// in lanes beside the tree (AVX2, Zen 3; `benches/speed.rs`): 22 and 62 for 24 triangles, 38 and
-/// 87 for 48, 81 and 99 for 96, 98 and 104 for 128, 172 and 155 for 192. Lanes also draw many
-/// photons' numbers at once, which is why they keep the tie.
+/// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, in lanes and
+/// with the tree (AVX2, Zen 3; `benches/speed.rs`):
+///
+/// - 24 triangles: 22 and 62
+/// - 48 triangles: 38 and 87
+/// - 96 triangles: 81 and 99
+/// - 128 triangles: 98 and 104
+/// - 192 triangles: 172 and 155
+///
+/// Lanes also draw the numbers of many photons at once, so they keep the tie.
 pub const MOST_TRIANGLES: usize = 128;
 
 /// Traces the photons of one renderer in lanes.

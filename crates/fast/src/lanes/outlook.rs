@@ -1,16 +1,15 @@
 //! What a point light can hit in which direction, found out once for all of its photons.
 //!
 //! All photons of a point light start at one point, and three in four of the handout's leave the
-//! scene at once. So the directions are divided into cells, six faces of a cube with a grid on
-//! each, and each cell keeps the triangles that a ray through it *may* meet: often none, mostly
-//! one.
+//! scene at once. So the directions are divided into cells: six faces of a cube with a grid on
+//! each. Each cell keeps the triangles that a ray through it *may* meet: often none, mostly one.
 //!
 //! The bits cannot change, because a triangle is left out of a cell only where the test of
-//! [`photon_mapping::scene::triangle`] is certain to refuse it. That test sees a corner at
-//! `x' = x - s z`, where (x, y, z) lead from the light to the corner in the order of the ray's axes
-//! and the shear s = d_x / d_z lies in [-1, 1]. Rounding is monotonic, so the *rounded* x' of all
-//! rays of a cell lies between the rounded x' of its two ends, and what is said of these intervals
-//! holds for what the test computes. It refuses every ray of the cell when
+//! [`photon_mapping::scene::triangle`] is certain to refuse it. That test sees a corner at `x' = x
+//! - s z`. Here (x, y, z) lead from the light to the corner in the order of the ray's axes. The
+//! shear s = d_x / d_z lies in [-1, 1]. Rounding is monotonic, so the *rounded* x' of all rays of a
+//! cell lies between the rounded x' of its two ends. So a statement about these intervals holds for
+//! what the test computes. It refuses every ray of the cell when
 //!
 //! - no corner has positive depth: t is then a mean of numbers <= 0, never > 0;
 //! - all corners have x' > 0 (or x' < 0, or the same of y'): since `a_x u + b_x v + c_x w = 0`, the
@@ -18,12 +17,12 @@
 //! - one edge function is certainly positive and another certainly negative.
 //!
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
-//! photon's direction are 0 or at least 2^-24, so they cannot where each coordinate is 0 or at
-//! least 2^-25; a triangle with smaller ones is in every cell.
+//! photon's direction are 0 or at least 2^-24. So none underflows where each coordinate is 0 or at
+//! least 2^-25. A triangle with smaller coordinates is in every cell.
 //!
-//! A photon straight from the light is not stored, so one that is absorbed where it hits first need
-//! not be followed there: [`Outlook::may_go_on`] plays its roulette against the most that anything
-//! in its cell reflects. [`super::first_hit`] tests those that remain.
+//! A photon straight from the light is not stored, so one that is absorbed at its first hit needs
+//! no tracing. [`Outlook::may_go_on`] plays its roulette against the largest reflection in its
+//! cell. [`super::first_hit`] tests those that remain.
 
 use std::ops::Range;
 
@@ -61,8 +60,8 @@ pub struct Outlook {
     reflection: Box<[u8; ROUGH_CELLS]>,
 }
 
-/// The face of the cube through which the direction `direction` of any length leaves, and the
-/// direction in the order of a ray's axes: the choice of `ShearedRay::axes`, without its branches.
+/// The face of the cube through which `direction`, of any length, leaves, and the direction in the
+/// order of a ray's axes. The choice is that of `ShearedRay::axes`, without its branches.
 #[inline(always)]
 fn turn(direction: Vec3) -> (i32, Vec3) {
     let Vec3 { x, y, z } = direction;
@@ -120,9 +119,8 @@ pub fn aim(direction: Vec3) -> (u32, Vec3) {
 /// The cell of a point in the unit sphere for [`Outlook::may_go_on`], before it is normalised.
 ///
 /// Its shears are off by a few roundings, for which a cell has its margin. Its face is that of the
-/// normalised direction: coordinates are drawn as multiples of 2^-23 and only grow by normalising,
-/// so two that differ still differ by more than the 2^-24 to which those of a unit vector are
-/// rounded.
+/// normalised direction. Coordinates are drawn as multiples of 2^-23 and only grow by normalising.
+/// So two that differ still differ by more than 2^-24, to which a unit vector's are rounded.
 #[inline(always)]
 pub fn rough_cell(direction: Vec3) -> u32 {
     let (face, turned) = turn(direction);

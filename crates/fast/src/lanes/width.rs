@@ -2,7 +2,7 @@
 
 use pulp::NullaryFnOnce;
 
-/// A set of vector instructions. The bits do not depend on it: none of the kernels' operations is
+/// A set of vector instructions. The bits do not depend on it. No operation of the kernels is
 /// rounded differently in a vector, and Rust never fuses a product and a sum of its own accord.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
