@@ -154,13 +154,12 @@ fn markdown(plan: &Plan, offsets: &Offsets) -> String {
         text,
         "Per million emitted photons: **self-hits / leaks / lost / extra**. A self-hit is a second \
          hit in a row on one plane. A leak is a hit from behind, or on the floor inside a box's \
-         footprint. Lost and extra are counted photon by photon against the same random numbers in \
-         f64, whose rays start 1e-9 off the unscaled facet: lost is the first hit of a path that \
-         it should have made and did not, extra one that it should not have made, and a hit on \
-         another facet is both. {} photons a case, so that a 0 stands for fewer than {} of a \
-         million (95 %, by the rule of three). Fixed offsets are in units of the scene as it \
-         comes, the last rule is what the program does with a model that it loads. Wrong, in the \
-         plot, is the sum of the four.\n",
+         footprint. Lost and extra compare each photon with the same random numbers in f64, whose \
+         rays start 1e-9 off the unscaled facet. Lost is the first hit that a path should have \
+         made and did not. Extra is one that it should not have made. A hit on another facet is \
+         both. {} photons a case, so a 0 stands for fewer than {} of a million (95 %, by the rule \
+         of three). Fixed offsets are in units of the scene as it comes. The last rule is what the \
+         program does with a model that it loads. In the plot, wrong is the sum of the four.\n",
         plan.offset_photons,
         short(most_per_million(plan.offset_photons), 2)
     );
@@ -208,7 +207,7 @@ fn markdown(plan: &Plan, offsets: &Offsets) -> String {
         if worst == 0.0 { ", none seen in any" } else { "" }
     );
     text += "- A moved scene that is traced as it comes also has its corners rounded to f32, up to \
-             4e-3 at 1e5: part of what is lost there is lost to that.\n- Times include the \
+             4e-3 at 1e5. That explains a part of its lost photons.\n- Times include the \
              judging.\n\nData: [all cases](offset.csv).\n";
     text
 }

@@ -7,13 +7,10 @@ use super::plan::Plan;
 pub fn assemble(plan: &Plan, sections: &[Section]) -> String {
     let mut page = format!(
         "# Speed and accuracy\n\n\
-         What photons, precision, offset and sampler do to the error of the stored photons, \
-         measured by \
-         `photon-mapping report{}` in the handout's scene. Errors are differences from the \
-         expected hits \
-         that `photon-mapping expect` computes without tracing. Every number follows from the CSV \
-         files beside \
-         this page.\n",
+         This page measures what the number of photons, precision, offset and sampler do to the \
+         error of the stored photons. It comes from `photon-mapping report{}` in the handout's \
+         scene. Errors are differences from the expected values that `photon-mapping expect` \
+         computes without tracing. Every number follows from the CSV files beside this page.\n",
         plan.options
     );
     for section in sections {
