@@ -1,10 +1,10 @@
 //! The fast path: many photons side by side, to the bits of
 //! [`PhotonMappingRenderer::trace_photon`]. Nobody needs to read this to understand photon mapping.
 //!
-//! A wave of photons takes each step together: [`emission`] draws their directions in the lanes of
-//! the processor's vectors, [`outlook`] tells what a photon from a light may meet and [`first_hit`]
-//! what it meets, [`closest_hit`] what a scattered one meets, [`scattering`] sends those that survive
-//! the roulette on, and [`wave`] is the loop around them. [`picture`] sends camera and shadow rays the
+//! A wave of photons takes each step together: `emission` draws their directions in the lanes of
+//! the processor's vectors, `outlook` tells what a photon from a light may meet and `first_hit`
+//! what it meets, [`closest_hit`] what a scattered one meets, `scattering` sends those that survive
+//! the roulette on, and `wave` is the loop around them. [`picture`] sends camera and shadow rays the
 //! same way. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and this
@@ -18,17 +18,17 @@
 //! same change is made here. Every run also traces a sample of its photons both ways
 //! ([`crate::trace`]).
 
-pub mod chacha;
+mod chacha;
 pub mod closest_hit;
-pub mod draws;
-pub mod emission;
-pub mod first_hit;
+mod draws;
+mod emission;
+mod first_hit;
 pub mod offset;
-pub mod outlook;
+mod outlook;
 pub mod picture;
-pub mod scattering;
-pub mod trigonometry;
-pub mod wave;
+mod scattering;
+mod trigonometry;
+mod wave;
 pub mod width;
 
 use std::ops::Range;
