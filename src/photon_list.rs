@@ -69,7 +69,8 @@ impl PhotonRecord {
     }
 }
 
-/// The records of the photon numbered `photon`, which took `path` through `scene` and stored `stored`.
+/// The records of the photon numbered `photon`, which took `path` through `scene` and stored
+/// `stored`.
 ///
 /// # Panics
 /// When the photon's number, bounce or surface does not fit its column.
@@ -167,7 +168,8 @@ pub fn write_rows(output: &mut impl Write, records: &[PhotonRecord]) -> io::Resu
     for_rows(records, |rows| output.write_all(rows))
 }
 
-/// Gives `take` the rows of `records`, many at a time: hashing and writing start slowly for each call.
+/// Gives `take` the rows of `records`, many at a time: hashing and writing start slowly for each
+/// call.
 fn for_rows(
     records: &[PhotonRecord],
     mut take: impl FnMut(&[u8]) -> io::Result<()>,

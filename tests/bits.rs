@@ -1,7 +1,7 @@
 //! The exact photon lists, traced by `trace_photon`, and the random numbers under them.
 //!
-//! `INSTA_UPDATE=always cargo test --workspace` refreshes everything in `golden/`; nothing else writes
-//! there. See the value-stability policy in `CHANGELOG.md` before doing so.
+//! `INSTA_UPDATE=always cargo test --workspace` refreshes everything in `golden/`; nothing else
+//! writes there. See the value-stability policy in `CHANGELOG.md` before doing so.
 
 mod common;
 

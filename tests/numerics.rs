@@ -55,7 +55,8 @@ fn triangle_slightly_behind_the_start() {
     assert_eq!(met(&square(0.0), start, start - Vec3::Z), Some(0));
 }
 
-/// Rounding may put a start behind a surface that it is on: where a wall meets the floor, a little below.
+/// Rounding may put a start behind a surface that it is on: where a wall meets the floor, a little
+/// below.
 #[test]
 fn triangle_behind_the_start_by_its_rounding() {
     let scene = scene_of(&square(0.0));
@@ -112,8 +113,8 @@ fn back_hides_a_front_close_behind_it() {
     }
 }
 
-/// At an edge of a box that stands out against what lies behind it, a ray enters and leaves at once: it
-/// meets the face that looks at it.
+/// At an edge of a box that stands out against what lies behind it, a ray enters and leaves at
+/// once: it meets the face that looks at it.
 #[test]
 fn edge_of_a_box_is_met_from_the_front() {
     let scene = handout(148, 1).stored_scene;

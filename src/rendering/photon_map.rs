@@ -6,10 +6,10 @@ use glam::Vec3;
 ///
 /// The only question asked of the map has a fixed size, so a hashed grid with cells larger than the
 /// cube looks into at most eight short lists. The framework uses a kd-tree; photons that share a
-/// coordinate, as all those on the floor do, unbalance many of them, and a grid does not mind. Beside
-/// the kd-tree of the crate kiddo, with 1,000,000 points, a grid sorted by counting was built 7 times
-/// faster and asked twice as fast at this radius; and every answer is the same, since neither decides
-/// by anything but the coordinates.
+/// coordinate, as all those on the floor do, unbalance many of them, and a grid does not mind.
+/// Beside the kd-tree of the crate kiddo, with 1,000,000 points, a grid sorted by counting was
+/// built 7 times faster and asked twice as fast at this radius; and every answer is the same, since
+/// neither decides by anything but the coordinates.
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
     /// The photons of bucket b are `positions[starts[b]..starts[b + 1]]`.

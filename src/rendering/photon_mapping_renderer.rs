@@ -20,8 +20,8 @@ pub const PHOTON_DOT_RADIUS: f32 = 0.003;
 pub struct Photon {
     /// The point hit, in world space.
     pub position: Vec3,
-    /// The light's colour divided by the number of photons it emits. As the handout asks, the roulette
-    /// does not change it: right for the dots, wrong for radiance.
+    /// The light's colour divided by the number of photons it emits. As the handout asks, the
+    /// roulette does not change it: right for the dots, wrong for radiance.
     pub intensity: Vec3,
     /// From the point hit back to where the photon came from.
     pub to_light_ray: Ray,
@@ -62,11 +62,11 @@ impl PhotonMappingRenderer {
         self.diffuse_map = PhotonMap::new(photon_map.iter().map(|photon| photon.position));
     }
 
-    /// Shoots the photons numbered `photons`, counted over all lights in order, and adds those that are
-    /// stored to `photon_map`: C++ `GenericPhotonMapGeneration`.
+    /// Shoots the photons numbered `photons`, counted over all lights in order, and adds those that
+    /// are stored to `photon_map`: C++ `GenericPhotonMapGeneration`.
     ///
-    /// After each photon, `photon_done` gets its number, its path, and what it stored. The photon stored
-    /// at `path[k]`, k >= 2, has bounced k - 1 times.
+    /// After each photon, `photon_done` gets its number, its path, and what it stored. The photon
+    /// stored at `path[k]`, k >= 2, has bounced k - 1 times.
     pub fn generic_photon_map_generation(
         &self,
         photon_map: &mut Vec<Photon>,
@@ -98,8 +98,9 @@ impl PhotonMappingRenderer {
     /// Traces one photon until it leaves the scene, is absorbed, or has bounced too often: C++
     /// `TracePhoton`.
     ///
-    /// `path` has one element for the light and one for every surface hit so far. The order of draws from
-    /// `rand` is the roulette's number at every hit, then, if the photon scatters, u1 and u2.
+    /// `path` has one element for the light and one for every surface hit so far. The order of
+    /// draws from `rand` is the roulette's number at every hit, then, if the photon scatters,
+    /// u1 and u2.
     pub fn trace_photon(
         &self,
         photon_map: &mut Vec<Photon>,
@@ -174,8 +175,8 @@ impl PhotonMappingRenderer {
 
     /// The numbers of the photons that each light emits: its part of the brightness of all lights.
     ///
-    /// As in the framework, a count is truncated and the product is formed in f32. Counts above 2^24,
-    /// which f32 cannot tell apart, take f64.
+    /// As in the framework, a count is truncated and the product is formed in f32. Counts above
+    /// 2^24, which f32 cannot tell apart, take f64.
     pub fn photons_of_lights(&self) -> Vec<Range<u64>> {
         let brightness = |light: &PointLight| light.color.length();
         let lights = self.stored_scene.lights();

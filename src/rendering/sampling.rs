@@ -6,8 +6,8 @@ use glam::{Mat3, Vec3};
 /// from the y axis.
 pub const CLOSE_TO_PARALLEL: f32 = 0.99;
 
-/// A unit direction over the z axis, distributed as the cosine of its angle to z (density z / pi over
-/// solid angle), from two numbers in [0, 1). Tangent space; equations (2) to (6).
+/// A unit direction over the z axis, distributed as the cosine of its angle to z (density z / pi
+/// over solid angle), from two numbers in [0, 1). Tangent space; equations (2) to (6).
 pub fn sample_hemisphere(u1: f32, u2: f32) -> Vec3 {
     let r = u1.sqrt();
     let theta = 2.0 * std::f32::consts::PI * u2;

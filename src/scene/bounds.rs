@@ -42,8 +42,8 @@ impl Bounds {
         of_mesh.collect()
     }
 
-    /// Whether `ray`, with the reciprocal of its direction, can meet a triangle of the box before the
-    /// distance `max_t`.
+    /// Whether `ray`, with the reciprocal of its direction, can meet a triangle of the box before
+    /// the distance `max_t`.
     pub(super) fn can_be_met(&self, ray: &Ray, reciprocal: Vec3, max_t: f32) -> bool {
         let (low, high) = (self.low - ray.position(), self.high - ray.position());
         let slack = SLACK * low.abs().max(high.abs()).max_element();

@@ -22,8 +22,9 @@ pub struct PerspectiveCamera {
 }
 
 impl PerspectiveCamera {
-    /// A camera at `position` that looks along the unit vector `forward`, with the unit vector `up` at a
-    /// right angle to it. `field_of_view` is vertical and in degrees, `aspect_ratio` is width / height.
+    /// A camera at `position` that looks along the unit vector `forward`, with the unit vector `up`
+    /// at a right angle to it. `field_of_view` is vertical and in degrees, `aspect_ratio` is
+    /// width / height.
     pub fn new(
         position: Vec3,
         forward: Vec3,
@@ -42,7 +43,8 @@ impl PerspectiveCamera {
         }
     }
 
-    /// The ray through (`x`, `y`) of the picture, both from 0 to 1, with (0, 0) its top left corner.
+    /// The ray through (`x`, `y`) of the picture, both from 0 to 1, with (0, 0) its top left
+    /// corner.
     pub fn generate_ray_for_normalized_coordinates(&self, x: f32, y: f32) -> Ray {
         let across = (2.0 * x - 1.0) * self.half_width;
         let upwards = (1.0 - 2.0 * y) * self.half_height;

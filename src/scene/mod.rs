@@ -86,8 +86,8 @@ impl Scene {
 
     /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.
     ///
-    /// With a `state`, fills it with the closest hit. Of two triangles at the same distance, the first
-    /// counts. Without a `state`, any hit will do.
+    /// With a `state`, fills it with the closest hit. Of two triangles at the same distance, the
+    /// first counts. Without a `state`, any hit will do.
     pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
         let Some(state) = state else { return self.any_hit(ray) };
         let Some((triangle, t)) = self.closest_hit(ray) else { return false };
@@ -110,8 +110,8 @@ impl Scene {
 /// Every method is given the scene's triangles, and must answer exactly as a test of each of them
 /// would.
 pub trait Acceleration: Debug + Send + Sync {
-    /// The closest hit of `ray` before its `max_t`: a triangle, the distance, and whether the triangle
-    /// [faces](Triangle::faces) the ray.
+    /// The closest hit of `ray` before its `max_t`: a triangle, the distance, and whether the
+    /// triangle [faces](Triangle::faces) the ray.
     fn closest(&self, ray: &Ray, triangles: &[Triangle]) -> Option<(usize, f32, bool)>;
 
     /// The closest hit among those that `accepts` takes.

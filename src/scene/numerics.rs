@@ -1,7 +1,7 @@
 //! Where rounding matters: how a ray starts on a surface, and which of two close hits counts.
 //!
-//! Nobody needs this file to understand photon mapping. In exact arithmetic a scattered ray would start
-//! at the point hit, and [`Scene::trace`] would give the triangle with the smallest t > 0.
+//! Nobody needs this file to understand photon mapping. In exact arithmetic a scattered ray would
+//! start at the point hit, and [`Scene::trace`] would give the triangle with the smallest t > 0.
 //! `docs/numerics.md` has the reasons and the measurements.
 
 use glam::Vec3;
@@ -13,8 +13,8 @@ use super::triangle::{ShearedRay, Triangle};
 /// The framework's offset of a ray that leaves a surface, along the normal, in world units.
 pub const LARGE_EPSILON: f32 = 1e-5;
 
-/// Where every triangle has an edge as long as this, rays start [`LARGE_EPSILON`] above the surface.
-/// The handout's triangles all do: their longest edges are at least 0.85.
+/// Where every triangle has an edge as long as this, rays start [`LARGE_EPSILON`] above the
+/// surface. The handout's triangles all do: their longest edges are at least 0.85.
 const ORDINARY_EDGE: f32 = 0.5;
 
 /// Two hits closer than this many rounding errors count as the same point for a grazing ray.
@@ -47,9 +47,9 @@ impl Rounding {
 impl Scene {
     /// A ray that leaves the surface hit in `state` along the unit vector `direction`.
     ///
-    /// The handout names no offset. Without one, two in five scattered photons hit the triangle they
-    /// leave, because the point hit is rounded. So the ray starts [`Self::offset`] above the surface,
-    /// where the framework starts its shadow rays.
+    /// The handout names no offset. Without one, two in five scattered photons hit the triangle
+    /// they leave, because the point hit is rounded. So the ray starts [`Self::offset`] above
+    /// the surface, where the framework starts its shadow rays.
     pub fn spawn_ray(&self, state: &IntersectionState, direction: Vec3) -> Ray {
         let (start, offset) = self.spawn_point(state);
         let mut ray = Ray::new(start, direction);
@@ -68,9 +68,9 @@ impl Scene {
     /// How far along the normal a ray starts that leaves `triangle` at `point`, hit by a ray at the
     /// distance `t`: always [`LARGE_EPSILON`] in the handout's scene.
     ///
-    /// Where a scene has much smaller triangles, the offset shrinks in proportion to the smallest, but
-    /// never below what rounding may have done to the point: a few units in the last place of the
-    /// lengths it was computed from.
+    /// Where a scene has much smaller triangles, the offset shrinks in proportion to the smallest,
+    /// but never below what rounding may have done to the point: a few units in the last place
+    /// of the lengths it was computed from.
     pub fn offset(&self, triangle: usize, point: Vec3, t: f32) -> f32 {
         self.rounding.epsilon.max(self.rounding_at(triangle, point, t))
     }
@@ -88,8 +88,8 @@ impl Scene {
         }
     }
 
-    /// The closest hit of `ray` before its `max_t`: a triangle and the distance. A back yields to the
-    /// front beside it, because only rounding can have put the back first.
+    /// The closest hit of `ray` before its `max_t`: a triangle and the distance. A back yields to
+    /// the front beside it, because only rounding can have put the back first.
     pub(super) fn closest_hit(&self, ray: &Ray) -> Option<(usize, f32)> {
         let (triangle, t, is_front) = match &self.acceleration {
             Some(acceleration) => acceleration.closest(ray, &self.triangles)?,
@@ -104,13 +104,13 @@ impl Scene {
         self.front_beside(ray, triangle, t).or(Some((triangle, t)))
     }
 
-    /// The front that `ray` really met where rounding gives it a back at the distance `t` on `triangle`;
-    /// `None` where it met the back.
+    /// The front that `ray` really met where rounding gives it a back at the distance `t` on
+    /// `triangle`; `None` where it met the back.
     ///
-    /// A ray that touches the edge of a solid enters and leaves at once, and the back may seem to come
-    /// first: then a front at the same place shares a corner or its plane. A ray that grazes the surface
-    /// below which it started may have a [`Ray::start_error`] that is too short: then that front is within
-    /// the error of the start.
+    /// A ray that touches the edge of a solid enters and leaves at once, and the back may seem to
+    /// come first: then a front at the same place shares a corner or its plane. A ray that
+    /// grazes the surface below which it started may have a [`Ray::start_error`] that is too
+    /// short: then that front is within the error of the start.
     fn front_beside(&self, ray: &Ray, triangle: usize, t: f32) -> Option<(usize, f32)> {
         let (back, direction) = (&self.triangles[triangle], ray.ray_direction());
         let rounding = self.rounding_at(triangle, ray.ray_position(t), t);

@@ -17,8 +17,8 @@ impl PointLight {
     /// A ray from the light in a direction that is uniform on the sphere: C++
     /// `GenerateRandomPhotonRay`.
     ///
-    /// `rand` gives numbers in [0, 1), where the C++ scales the integer of `rand()`. Every try draws x,
-    /// y and z, in this order.
+    /// `rand` gives numbers in [0, 1), where the C++ scales the integer of `rand()`. Every try
+    /// draws x, y and z, in this order.
     pub fn generate_random_photon_ray(&self, rand: &mut impl FnMut() -> f32) -> Ray {
         // Photon Emission
         let direction = loop {
@@ -26,8 +26,8 @@ impl PointLight {
             let y = 2.0 * rand() - 1.0;
             let z = 2.0 * rand() - 1.0;
             let length_squared = x * x + y * y + z * z;
-            // The handout rejects only points outside the sphere. The centre has no direction either:
-            // normalised, it would be NaN.
+            // The handout rejects only points outside the sphere. The centre has no direction
+            // either: normalised, it would be NaN.
             if length_squared <= 1.0 && length_squared > 0.0 {
                 break Vec3::new(x, y, z);
             }

@@ -60,7 +60,8 @@ impl ShearedRay {
         self.shear
     }
 
-    /// The cosine of the ray's direction to `normal`: not above 0 where the ray meets the side it points to.
+    /// The cosine of the ray's direction to `normal`: not above 0 where the ray meets the side it
+    /// points to.
     #[inline(always)]
     pub fn cosine(&self, normal: Vec3) -> f32 {
         self.direction.dot(normal)
@@ -79,8 +80,8 @@ impl ShearedRay {
         }
     }
 
-    /// Whether the ray meets a triangle at the distance `t` by what is known of its start: see [`Ray::start_error`].
-    /// The [`Self::cosine`] is that of the triangle's normal.
+    /// Whether the ray meets a triangle at the distance `t` by what is known of its start: see
+    /// [`Ray::start_error`]. The [`Self::cosine`] is that of the triangle's normal.
     #[inline(always)]
     pub fn reaches(&self, cosine: f32, t: f32) -> bool {
         if self.start_error == 0.0 {
@@ -120,9 +121,9 @@ impl Triangle {
         a.cross(b).length() / self.longest_edge()
     }
 
-    /// The distance t at which `ray` meets the triangle, from either side; `None` when it passes beside
-    /// it, within its plane, or when the triangle lies behind the ray's start: t > 0, but for the
-    /// [`Ray::start_error`].
+    /// The distance t at which `ray` meets the triangle, from either side; `None` when it passes
+    /// beside it, within its plane, or when the triangle lies behind the ray's start: t > 0,
+    /// but for the [`Ray::start_error`].
     ///
     /// The framework uses the test of Moller and Trumbore, which can let a ray slip between two
     /// triangles that share an edge. This is the watertight test of Woop, Benthin and Wald
@@ -134,7 +135,8 @@ impl Triangle {
         ray.reaches(ray.cosine(self.normal), t).then_some(t)
     }
 
-    /// Whether the two have a corner in common, or `other` lies in this one's plane, no farther than `rounding`.
+    /// Whether the two have a corner in common, or `other` lies in this one's plane, no farther
+    /// than `rounding`.
     pub fn touches(&self, other: &Self, rounding: f32) -> bool {
         let height = |corner: Vec3| self.normal.dot(corner - self.vertices[0]);
         self.vertices.iter().any(|corner| other.vertices.contains(corner))
@@ -147,8 +149,8 @@ impl Triangle {
     }
 }
 
-/// The test of [`Triangle::intersect`] for the corners `a`, `b` and `c` as the ray sees them: the distance
-/// may be 0 or less, or not a number.
+/// The test of [`Triangle::intersect`] for the corners `a`, `b` and `c` as the ray sees them: the
+/// distance may be 0 or less, or not a number.
 #[inline(always)]
 pub fn meet([a, b, c]: [Vec3; 3]) -> Option<f32> {
     let mut u = c.x * b.y - c.y * b.x;

@@ -1,10 +1,11 @@
 // The data of the page: what Rust packed, unpacked.
 
-/** The sections of the block `data`: typed arrays by name. Their bytes come plane by plane (all lowest bytes first),
- * because that deflates better. */
+/** The sections of the block `data`: typed arrays by name. Their bytes come plane by plane, all
+ * lowest bytes first, because that deflates better. */
 async function readSections(list) {
   const text = document.getElementById("data").textContent.trim();
-  const packed = Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const packed =
+    Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const bytes = new Uint8Array(await new Response(inflated).arrayBuffer());
   const types = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array };
@@ -22,29 +23,55 @@ async function readSections(list) {
   return sections;
 }
 
-/** The random numbers of `photon`: ChaCha with 8 rounds, as in the port's `random.rs`. The numbers of all photons
- * would double the page, so they are drawn again here. All that follows from them is Rust's. */
+/** The random numbers of `photon`: ChaCha with 8 rounds, as in the port's `random.rs`. The numbers
+ * of all photons would double the page, so they are drawn again here. Rust computed the rest. */
 function photonRandom(seed, photon) {
   const block = new Uint32Array(16);
   const key = BigInt(seed);
-  const start = [0x61707865, 0x3320646e, 0x79622d32, 0x6b206574, Number(key & 0xffffffffn), Number(key >> 32n),
-    0, 0, 0, 0, 0, 0, 0, 0, photon, 0];
+  const start = [
+    0x61707865,
+    0x3320646e,
+    0x79622d32,
+    0x6b206574,
+    Number(key & 0xffffffffn),
+    Number(key >> 32n),
+    0,
+    0,
+    0,
+    0,
+    0,
+    0,
+    0,
+    0,
+    photon,
+    0,
+  ];
   let next = 16;
-  const turn = (a, b, by) => { block[a] ^= block[b]; block[a] = (block[a] << by) | (block[a] >>> (32 - by)); };
+  const turn = (a, b, by) => {
+    block[a] ^= block[b];
+    block[a] = (block[a] << by) | (block[a] >>> (32 - by));
+  };
   const quarter = (a, b, c, d) => {
-    block[a] += block[b]; turn(d, a, 16);
-    block[c] += block[d]; turn(b, c, 12);
-    block[a] += block[b]; turn(d, a, 8);
-    block[c] += block[d]; turn(b, c, 7);
+    block[a] += block[b];
+    turn(d, a, 16);
+    block[c] += block[d];
+    turn(b, c, 12);
+    block[a] += block[b];
+    turn(d, a, 8);
+    block[c] += block[d];
+    turn(b, c, 7);
   };
   return () => {
     if (next === 16) {
       block.set(start);
       for (let round = 0; round < 4; round++) {
         for (let i = 0; i < 4; i++) quarter(i, i + 4, i + 8, i + 12);
-        for (let i = 0; i < 4; i++) quarter(i, 4 + ((i + 1) % 4), 8 + ((i + 2) % 4), 12 + ((i + 3) % 4));
+        for (let i = 0; i < 4; i++)
+          quarter(i, 4 + ((i + 1) % 4), 8 + ((i + 2) % 4), 12 + ((i + 3) % 4));
       }
-      start.forEach((word, i) => { block[i] += word; });
+      start.forEach((word, i) => {
+        block[i] += word;
+      });
       start[12] += 1;
       next = 0;
     }
@@ -59,7 +86,7 @@ class Run {
     const { path_photon: steps, path_hits: hits, path_ending: endings } = sections;
     this.paths = hits.length;
     const stored = hits.reduce((sum, count) => sum + Math.max(count - 1, 0), 0);
-    // Of each path: its photon, and where its hits, its stored photons and its scattered directions begin.
+    // For each path: its photon, and where its hits, stored photons and directions begin.
     this.photons = new Uint32Array(this.paths);
     this.firstHit = new Uint32Array(this.paths + 1);
     this.firstStored = new Uint32Array(this.paths + 1);
@@ -71,7 +98,9 @@ class Run {
     let photon = 0;
     for (let path = 0; path < this.paths; path++) {
       this.photons[path] = photon += steps[path];
-      const count = hits[path], first = this.firstHit[path], at = this.firstStored[path];
+      const count = hits[path],
+        first = this.firstHit[path],
+        at = this.firstStored[path];
       for (let bounce = 1; bounce < count; bounce++) {
         this.pathOf[at + bounce - 1] = path;
         this.bounceOf[at + bounce - 1] = bounce;
@@ -79,7 +108,8 @@ class Run {
       }
       this.firstHit[path + 1] = first + count;
       this.firstStored[path + 1] = at + Math.max(count - 1, 0);
-      this.firstScattered[path + 1] = this.firstScattered[path] + count - (endings[path] === 0 ? 1 : 0);
+      this.firstScattered[path + 1] =
+        this.firstScattered[path] + count - (endings[path] === 0 ? 1 : 0);
     }
     this.positions = new Float32Array(3 * stored);
     ["x", "y", "z"].forEach((axis, i) => {
@@ -88,14 +118,18 @@ class Run {
     });
   }
 
-  get stored() { return this.pathOf.length; }
+  get stored() {
+    return this.pathOf.length;
+  }
 
   /** The path of `photon`, or -1. */
   pathOfPhoton(photon) {
-    let low = 0, high = this.paths;
+    let low = 0,
+      high = this.paths;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (this.photons[middle] < photon) low = middle + 1; else high = middle;
+      if (this.photons[middle] < photon) low = middle + 1;
+      else high = middle;
     }
     return this.photons[low] === photon ? low : -1;
   }
@@ -117,10 +151,13 @@ class Run {
       tries.push(xyz);
     } while (square > 1 || square === 0);
     const light = this.lights[sections.path_light[path]];
-    const count = sections.path_hits[path], ending = ["absorbed", "left_the_scene", "bounce_limit"][sections.path_ending[path]];
+    const count = sections.path_hits[path],
+      ending = ["absorbed", "left_the_scene", "bounce_limit"][sections.path_ending[path]];
     // In f32, as Rust computes them; Rust packs them where this would give other bits.
     const by = round(1 / round(Math.sqrt(square)));
-    const direction = sections.emission_x ? this.vector("emission", path) : tries.at(-1).map((x) => round(x * by));
+    const direction = sections.emission_x
+      ? this.vector("emission", path)
+      : tries.at(-1).map((x) => round(x * by));
     const direct = (t) => light.position.map((x, i) => round(x + round(t * direction[i])));
     const hits = [];
     for (let bounce = 0; bounce < count; bounce++) {
@@ -129,16 +166,38 @@ class Run {
       const surface = this.surfaces[face.surface];
       const roulette = rand();
       const scattered = bounce + 1 < count || ending !== "absorbed";
-      const position = bounce > 0 ? this.vector("stored", this.firstStored[path] + bounce - 1)
-        : sections.direct_x ? this.vector("direct", path) : direct(sections.hit_t[at]);
+      const position =
+        bounce > 0
+          ? this.vector("stored", this.firstStored[path] + bounce - 1)
+          : sections.direct_x
+            ? this.vector("direct", path)
+            : direct(sections.hit_t[at]);
       const hit = {
-        bounce, face, surface: surface.name, facet: face.facet, t: sections.hit_t[at], position, roulette,
-        normal: face.normal, survival: surface.survival, diffuse: surface.diffuse, scattered, stored: bounce > 0,
+        bounce,
+        face,
+        surface: surface.name,
+        facet: face.facet,
+        t: sections.hit_t[at],
+        position,
+        roulette,
+        normal: face.normal,
+        survival: surface.survival,
+        diffuse: surface.diffuse,
+        scattered,
+        stored: bounce > 0,
       };
-      hits.push(scattered ? {
-        ...hit, u1: rand(), u2: rand(), tangent: face.tangent, bitangent: face.bitangent,
-        direction: this.vector("scattered", this.firstScattered[path] + bounce),
-      } : hit);
+      hits.push(
+        scattered
+          ? {
+              ...hit,
+              u1: rand(),
+              u2: rand(),
+              tangent: face.tangent,
+              bitangent: face.bitangent,
+              direction: this.vector("scattered", this.firstScattered[path] + bounce),
+            }
+          : hit,
+      );
     }
     return { photon, light, tries, direction, hits, ending };
   }
@@ -156,7 +215,9 @@ function digits(x) {
   while (round(Number(x.toPrecision(precision))) !== x) precision++;
   const short = Number(x.toPrecision(precision));
   const exponent = Number(short.toExponential().split("e")[1]);
-  return exponent < -6 || exponent > 20 ? short.toFixed(Math.max(precision - 1 - exponent, 0)) : String(short);
+  return exponent < -6 || exponent > 20
+    ? short.toFixed(Math.max(precision - 1 - exponent, 0))
+    : String(short);
 }
 
 const vectorText = (xyz) => `(${xyz.map(digits).join(", ")})`;

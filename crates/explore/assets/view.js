@@ -1,19 +1,41 @@
-// The box in 3-D: WebGL2 and an orbiting camera. It draws what it is given and knows nothing of photons' stories.
+// The box in 3-D: WebGL2 and an orbiting camera. It draws layers and knows no photon's story.
 
 const add = (a, b, by = 1) => [a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]];
 const scale = (a, by) => [a[0] * by, a[1] * by, a[2] * by];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross = (a, b) => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 const length = (a) => Math.hypot(...a);
 const unit = (a) => scale(a, 1 / (length(a) || 1));
 
-/** The names of all colours, in the order of the shader's palette; the style sheet has their values. */
-const COLORS = ["grey", "one", "two", "three", "four", "red", "missing", "extra", "moved", "path", "light", "ink", "t", "b", "n", "edge"];
+/** The names of all colors, in the order of the shader's palette. The style sheet has values. */
+const COLORS = [
+  "grey",
+  "one",
+  "two",
+  "three",
+  "four",
+  "red",
+  "missing",
+  "extra",
+  "moved",
+  "path",
+  "light",
+  "ink",
+  "t",
+  "b",
+  "n",
+  "edge",
+];
 /** The shapes of dots, in the order of the shader's cases. */
 const SHAPES = { circle: 0, square: 1, diamond: 2, triangle: 3, ring: 4, cross: 5 };
 
 const SURFACE_VERTEX = `#version 300 es
-layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal; layout(location = 2) in vec3 color;
+layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 color;
 uniform mat4 camera; out vec3 at, n, c;
 void main() { at = position; n = normal; c = color; gl_Position = camera * vec4(position, 1); }`;
 const SURFACE_FRAGMENT = `#version 300 es
@@ -30,7 +52,7 @@ void main() {
 // (`polygonOffset` would do the same, but some drivers give other depths in every frame.)
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
-uniform mat4 camera; uniform vec3 eye; uniform float pixels, least, most, size, dim; uniform vec3 palette[16];
+uniform mat4 camera; uniform vec3 eye, palette[16]; uniform float pixels, least, most, size, dim;
 uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
@@ -42,23 +64,27 @@ void main() {
   gl_PointSize = wide;
   if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
   uint id = uint(gl_VertexID) + 1u;
-  c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255. : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
+  c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255.
+    : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
 }`;
 const DOT_FRAGMENT = `#version 300 es
-precision highp float; flat in vec4 c; flat in uint shape; flat in float wide; uniform bool pick; out vec4 o;
+precision highp float; flat in vec4 c; flat in uint shape; flat in float wide;
+uniform bool pick; out vec4 o;
 void main() {
   // Too small for a shape: a square, so that at least one pixel is drawn.
   if (pick || wide < 3.) { o = c; return; }
   vec2 p = abs(gl_PointCoord * 2. - 1.); float d = length(p);
-  bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88 : shape == 2u ? p.x + p.y < 1.
-    : shape == 3u ? p.x < gl_PointCoord.y * .95 : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
+  bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88
+    : shape == 2u ? p.x + p.y < 1. : shape == 3u ? p.x < gl_PointCoord.y * .95
+    : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
   if (!inside) discard;
   o = c;
 }`;
-// A line is a strip of two triangles, as wide as it is told in pixels.
+// A line is a strip of two triangles. Its width is in pixels.
 const LINE_VERTEX = `#version 300 es
 layout(location = 0) in vec3 a; layout(location = 1) in vec3 b; layout(location = 2) in vec4 color;
-layout(location = 3) in vec2 style; uniform mat4 camera; uniform vec3 eye; uniform vec2 size; out vec4 c; out float along;
+layout(location = 3) in vec2 style;
+uniform mat4 camera; uniform vec3 eye; uniform vec2 size; out vec4 c; out float along;
 flat out float dash;
 void main() {
   vec4 p = camera * vec4(mix(a, eye, .002), 1), q = camera * vec4(mix(b, eye, .002), 1);
@@ -80,23 +106,30 @@ class View {
   constructor(canvas, onDraw) {
     this.canvas = canvas;
     this.onDraw = onDraw;
-    const gl = this.gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
+    const gl = (this.gl = canvas.getContext("webgl2", { alpha: false, antialias: false }));
     if (!gl) throw new Error("no WebGL2");
     const program = (vertex, fragment) => {
       const made = gl.createProgram();
-      for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      for (const [type, source] of [
+        [gl.VERTEX_SHADER, vertex],
+        [gl.FRAGMENT_SHADER, fragment],
+      ]) {
         const shader = gl.createShader(type);
         gl.shaderSource(shader, source);
         gl.compileShader(shader);
-        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader) ?? "lost");
+        if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS))
+          throw new Error(gl.getShaderInfoLog(shader) ?? "lost");
         gl.attachShader(made, shader);
       }
       gl.linkProgram(made);
-      if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made) ?? "lost");
+      if (!gl.getProgramParameter(made, gl.LINK_STATUS))
+        throw new Error(gl.getProgramInfoLog(made) ?? "lost");
       return { made, at: (name) => gl.getUniformLocation(made, name) };
     };
     this.programs = {
-      surface: program(SURFACE_VERTEX, SURFACE_FRAGMENT), dot: program(DOT_VERTEX, DOT_FRAGMENT), line: program(LINE_VERTEX, LINE_FRAGMENT),
+      surface: program(SURFACE_VERTEX, SURFACE_FRAGMENT),
+      dot: program(DOT_VERTEX, DOT_FRAGMENT),
+      line: program(LINE_VERTEX, LINE_FRAGMENT),
     };
     this.layers = {};
     this.wallAlpha = 1;
@@ -105,7 +138,10 @@ class View {
     this.part = this.pace = 1;
     this.pickTarget = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.pickTarget);
-    for (const [point, format] of [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]]) {
+    for (const [point, format] of [
+      [gl.COLOR_ATTACHMENT0, gl.RGBA8],
+      [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24],
+    ]) {
       const buffer = gl.createRenderbuffer();
       gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
       gl.renderbufferStorage(gl.RENDERBUFFER, format, View.PICK, View.PICK);
@@ -118,19 +154,22 @@ class View {
   /** So many pixels a side are looked at around a click. */
   static PICK = 25;
 
-  /** Makes the layer `name` of `columns`: arrays with their number of components; `step` 1 for one entry an instance. */
+  /** Makes the layer `name` of `columns`: arrays with their number of components. With `step` 1
+   * there is one entry for each instance. */
   setLayer(name, count, columns, step = 0) {
     const { gl } = this;
-    const layer = this.layers[name] ??= { vao: gl.createVertexArray(), buffers: [] };
+    const layer = (this.layers[name] ??= { vao: gl.createVertexArray(), buffers: [] });
     layer.count = count;
     gl.bindVertexArray(layer.vao);
     columns.forEach(([array, components, stride = 0, offset = 0], index) => {
       layer.buffers[index] ??= array ? { id: gl.createBuffer() } : layer.buffers[0];
       const buffer = layer.buffers[index];
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer.id);
-      if (array && buffer.array !== array) gl.bufferData(gl.ARRAY_BUFFER, buffer.array = array, gl.DYNAMIC_DRAW);
+      if (array && buffer.array !== array)
+        gl.bufferData(gl.ARRAY_BUFFER, (buffer.array = array), gl.DYNAMIC_DRAW);
       gl.enableVertexAttribArray(index);
-      if (array instanceof Uint8Array) gl.vertexAttribIPointer(index, components, gl.UNSIGNED_BYTE, 0, 0);
+      if (array instanceof Uint8Array)
+        gl.vertexAttribIPointer(index, components, gl.UNSIGNED_BYTE, 0, 0);
       else gl.vertexAttribPointer(index, components, gl.FLOAT, false, stride, offset);
       gl.vertexAttribDivisor(index, step);
     });
@@ -138,58 +177,94 @@ class View {
     this.draw();
   }
 
-  /** Shows dots at `positions`, each with a look (palette entry and shape; then 0 hidden, 1 plain, 2 lit) and the index of
-   * its face, or one beyond the last. They are drawn face by face, so that those on the far side can be left out. */
+  /** Shows dots at `positions`. A look is a palette entry and a shape, then 0 hidden, 1 plain or
+   * 2 lit. `faceOf` has the index of each dot's face, or one beyond the last. Dots are drawn face
+   * by face, so that those on the far side can be left out. */
   setDots(positions, looks, faceOf) {
-    const { gl } = this, starts = new Uint32Array(this.faces.length + 2);
+    const { gl } = this,
+      starts = new Uint32Array(this.faces.length + 2);
     for (let i = 0; i < faceOf.length; i++) if (looks[2 * i + 1]) starts[faceOf[i] + 1]++;
     for (let face = 0; face <= this.faces.length; face++) starts[face + 1] += starts[face];
-    const next = starts.slice(), order = new Uint32Array(starts.at(-1));
+    const next = starts.slice(),
+      order = new Uint32Array(starts.at(-1));
     for (let i = 0; i < faceOf.length; i++) if (looks[2 * i + 1]) order[next[faceOf[i]]++] = i;
-    this.setLayer("dots", order.length, [[positions, 3], [looks, 2]]);
+    this.setLayer("dots", order.length, [
+      [positions, 3],
+      [looks, 2],
+    ]);
     this.layers.dots.starts = starts;
     gl.bindVertexArray(this.layers.dots.vao);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.dotOrder ??= gl.createBuffer());
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, (this.dotOrder ??= gl.createBuffer()));
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, order, gl.DYNAMIC_DRAW);
     gl.bindVertexArray(null);
   }
 
-  /** Draws the dots in sight. The first part of a face's dots is spread over all of it, since paths are in no order. */
+  /** Draws the dots in sight. Paths are in no order, so a part of the dots covers a whole face. */
   drawFaces({ starts }, part) {
     const { gl, eye } = this;
     for (let face = 0; face <= this.faces.length; face++) {
-      const count = Math.ceil((starts[face + 1] - starts[face]) * part), { normal, at } = this.faces[face] ?? {};
+      const count = Math.ceil((starts[face + 1] - starts[face]) * part),
+        { normal, at } = this.faces[face] ?? {};
       const isTurnedAway = normal && this.wallAlpha === 1 && dot(normal, add(eye, at, -1)) < 0;
-      if (count && !isTurnedAway) gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 4 * starts[face]);
+      if (count && !isTurnedAway)
+        gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 4 * starts[face]);
     }
   }
 
   /** Draws larger dots over all others: of {at, color, shape}. */
   setMarks(marks) {
-    const looks = marks.flatMap(({ color, shape }) => [COLORS.indexOf(color) | (SHAPES[shape] << 4), 1]);
-    this.setLayer("marks", marks.length, [[new Float32Array(marks.flatMap((mark) => mark.at)), 3], [new Uint8Array(looks), 2]]);
+    const looks = marks.flatMap(({ color, shape }) => [
+      COLORS.indexOf(color) | (SHAPES[shape] << 4),
+      1,
+    ]);
+    this.setLayer("marks", marks.length, [
+      [new Float32Array(marks.flatMap((mark) => mark.at)), 3],
+      [new Uint8Array(looks), 2],
+    ]);
   }
 
   /** Draws lines of {a, b, color, width, dash, alpha}, lengths in pixels, as the layer `name`. */
   setLines(name, lines) {
-    const numbers = lines.flatMap(({ a, b, color, width = 1.5, dash = 0, alpha = 1 }) =>
-      [...a, ...b, ...this.palette[COLORS.indexOf(color)], alpha, width, dash]);
-    this.setLayer(name, lines.length, [[new Float32Array(numbers), 3, 48, 0], [null, 3, 48, 12], [null, 4, 48, 24], [null, 2, 48, 40]], 1);
+    const numbers = lines.flatMap(({ a, b, color, width = 1.5, dash = 0, alpha = 1 }) => [
+      ...a,
+      ...b,
+      ...this.palette[COLORS.indexOf(color)],
+      alpha,
+      width,
+      dash,
+    ]);
+    this.setLayer(
+      name,
+      lines.length,
+      [
+        [new Float32Array(numbers), 3, 48, 0],
+        [null, 3, 48, 12],
+        [null, 4, 48, 24],
+        [null, 2, 48, 40],
+      ],
+      1,
+    );
   }
 
-  /** Sets the camera: what it turns around, from where (radians), how far, how high its picture is. */
+  /** Sets the camera: its target, its angles in radians, its distance, its picture's height. */
   look(camera) {
-    Object.assign(this.camera ??= {}, camera);
+    Object.assign((this.camera ??= {}), camera);
     const limit = Math.PI / 2 - 0.001;
     this.camera.pitch = Math.min(Math.max(this.camera.pitch, -limit), limit);
     this.moved = performance.now();
     this.draw();
   }
 
-  /** While the camera moves, draws no more dots than are drawn in time; all of them as soon as it rests. */
+  /** While the camera moves, draws only as many dots as there is time for. At rest, draws all. */
   keepPace() {
-    const now = performance.now(), since = now - (this.drawn ?? 0), isMoving = (this.moved ?? 0) > (this.drawn ?? 0) || now - (this.moved ?? 0) < 150;
-    if (isMoving && since < 1000) this.pace = Math.min(Math.max(this.pace * Math.min(Math.max(42 / since, 0.6), 1.15), 0.02), 1);
+    const now = performance.now(),
+      since = now - (this.drawn ?? 0),
+      isMoving = (this.moved ?? 0) > (this.drawn ?? 0) || now - (this.moved ?? 0) < 150;
+    if (isMoving && since < 1000)
+      this.pace = Math.min(
+        Math.max(this.pace * Math.min(Math.max(42 / since, 0.6), 1.15), 0.02),
+        1,
+      );
     this.part = isMoving ? this.pace : 1;
     this.drawn = now;
     clearTimeout(this.rest);
@@ -199,27 +274,42 @@ class View {
   /** The way the camera looks, and what is right and up to it. */
   axes() {
     const { yaw, pitch } = this.camera;
-    const forward = [Math.sin(yaw) * Math.cos(pitch), Math.cos(yaw) * Math.cos(pitch), Math.sin(pitch)];
+    const forward = [
+      Math.sin(yaw) * Math.cos(pitch),
+      Math.cos(yaw) * Math.cos(pitch),
+      Math.sin(pitch),
+    ];
     const right = [Math.cos(yaw), -Math.sin(yaw), 0];
     return { forward, right, up: cross(right, forward) };
   }
 
-  get eye() { return add(this.camera.target, this.axes().forward, -this.camera.distance); }
+  get eye() {
+    return add(this.camera.target, this.axes().forward, -this.camera.distance);
+  }
 
-  /** Half the height of the picture at distance 1. A narrow view is made higher, so that it shows all of a 4:3 picture. */
+  /** Half the height of the picture at distance 1. A narrow view is higher, to show all of 4:3. */
   get halfHeight() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    return this.camera.halfHeight * Math.max(1, (4 / 3) / (width / height));
+    return this.camera.halfHeight * Math.max(1, 4 / 3 / (width / height));
   }
 
   /** World to clip space, column by column. */
   matrix() {
-    const { forward, right, up } = this.axes(), eye = this.eye;
+    const { forward, right, up } = this.axes(),
+      eye = this.eye;
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const y = 1 / this.halfHeight, x = y * height / width;
-    const near = this.camera.distance * 0.02, far = this.camera.distance + 20 * this.camera.size;
-    const a = (far + near) / (far - near), b = -2 * far * near / (far - near);
-    const rows = [[scale(right, x), 0], [scale(up, y), 0], [scale(forward, a), b], [forward, 0]];
+    const y = 1 / this.halfHeight,
+      x = (y * height) / width;
+    const near = this.camera.distance * 0.02,
+      far = this.camera.distance + 20 * this.camera.size;
+    const a = (far + near) / (far - near),
+      b = (-2 * far * near) / (far - near);
+    const rows = [
+      [scale(right, x), 0],
+      [scale(up, y), 0],
+      [scale(forward, a), b],
+      [forward, 0],
+    ];
     const row = rows.map(([v, more]) => [...v, more - dot(v, eye)]);
     return new Float32Array([0, 1, 2, 3].flatMap((column) => row.map((r) => r[column])));
   }
@@ -227,20 +317,30 @@ class View {
   /** Where `point` appears, in CSS pixels; nothing if it lies behind. */
   project(point) {
     const m = this.projection ?? this.matrix();
-    const [x, y, , w] = [0, 1, 2, 3].map((r) => m[r] * point[0] + m[4 + r] * point[1] + m[8 + r] * point[2] + m[12 + r]);
-    return w > 0 ? [(x / w + 1) / 2 * this.canvas.clientWidth, (1 - y / w) / 2 * this.canvas.clientHeight] : null;
+    const [x, y, , w] = [0, 1, 2, 3].map(
+      (r) => m[r] * point[0] + m[4 + r] * point[1] + m[8 + r] * point[2] + m[12 + r],
+    );
+    return w > 0
+      ? [((x / w + 1) / 2) * this.canvas.clientWidth, ((1 - y / w) / 2) * this.canvas.clientHeight]
+      : null;
   }
 
   draw() {
-    this.waiting ??= requestAnimationFrame(() => { this.waiting = null; this.drawNow(); });
+    this.waiting ??= requestAnimationFrame(() => {
+      this.waiting = null;
+      this.drawNow();
+    });
   }
 
   drawNow() {
     const { gl, canvas, programs, layers } = this;
     if (!this.camera || !this.palette || gl.isContextLost()) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((edge) => Math.max(1, Math.round(edge * ratio)));
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((edge) =>
+      Math.max(1, Math.round(edge * ratio)),
+    );
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
     this.projection = this.matrix();
     this.keepPace();
     gl.viewport(0, 0, width, height);
@@ -266,7 +366,11 @@ class View {
   }
 
   drawSurfaces(camera) {
-    const { gl, programs: { surface }, layers: { surfaces } } = this;
+    const {
+      gl,
+      programs: { surface },
+      layers: { surfaces },
+    } = this;
     gl.useProgram(surface.made);
     gl.uniformMatrix4fv(surface.at("camera"), false, camera);
     gl.uniform3fv(surface.at("light"), this.light);
@@ -274,32 +378,49 @@ class View {
     gl.uniform3fv(surface.at("eye"), this.eye);
     gl.uniform1f(surface.at("wash"), this.wash);
     gl.uniform1f(surface.at("alpha"), this.wallAlpha);
-    this.drawLayer(surfaces, this.wallAlpha < 1, () => gl.drawArrays(gl.TRIANGLES, 0, surfaces.count));
+    this.drawLayer(surfaces, this.wallAlpha < 1, () =>
+      gl.drawArrays(gl.TRIANGLES, 0, surfaces.count),
+    );
   }
 
   drawDots(name, camera, blend, pick = false) {
-    const { gl, programs: { dot: program }, canvas } = this, layer = this.layers[name];
+    const {
+        gl,
+        programs: { dot: program },
+        canvas,
+      } = this,
+      layer = this.layers[name];
     if (!layer?.count) return;
-    const ratio = canvas.width / canvas.clientWidth, isMark = name === "marks";
+    const ratio = canvas.width / canvas.clientWidth,
+      isMark = name === "marks";
     gl.useProgram(program.made);
     gl.uniformMatrix4fv(program.at("camera"), false, camera);
     gl.uniform3fv(program.at("eye"), this.eye);
     gl.uniform3fv(program.at("palette"), this.palette.flat());
-    gl.uniform1f(program.at("pixels"), canvas.height / 2 / this.halfHeight * (this.dotScale));
+    gl.uniform1f(program.at("pixels"), (canvas.height / 2 / this.halfHeight) * this.dotScale);
     gl.uniform1f(program.at("size"), isMark ? 0 : this.dotSize);
-    gl.uniform1f(program.at("least"), (isMark ? 13 : pick ? 5 : Math.max(1.5, 1.2 * this.dotScale)) * ratio);
+    gl.uniform1f(
+      program.at("least"),
+      (isMark ? 13 : pick ? 5 : Math.max(1.5, 1.2 * this.dotScale)) * ratio,
+    );
     gl.uniform1f(program.at("most"), 30 * ratio);
     gl.uniform1f(program.at("dim"), isMark ? 1 : this.dim);
     gl.uniform1i(program.at("pick"), pick ? 1 : 0);
-    // A ray of the handout goes through the upper left corner of its pixel: half a pixel off the middle.
+    // The handout's rays go through upper left corners: half a pixel off the middle.
     gl.uniform2f(program.at("shift"), pick ? 0 : 1 / canvas.width, pick ? 0 : -1 / canvas.height);
     this.drawLayer(layer, blend && !pick, () => {
-      if (isMark) gl.drawArrays(gl.POINTS, 0, layer.count); else this.drawFaces(layer, pick ? 1 : this.part);
+      if (isMark) gl.drawArrays(gl.POINTS, 0, layer.count);
+      else this.drawFaces(layer, pick ? 1 : this.part);
     });
   }
 
   drawLines(name, ratio) {
-    const { gl, programs: { line }, canvas } = this, layer = this.layers[name];
+    const {
+        gl,
+        programs: { line },
+        canvas,
+      } = this,
+      layer = this.layers[name];
     if (!layer?.count) return;
     gl.useProgram(line.made);
     gl.uniformMatrix4fv(line.at("camera"), false, this.projection);
@@ -310,19 +431,24 @@ class View {
 
   drawLayer(layer, blend, drawArrays) {
     const { gl } = this;
-    if (blend) gl.enable(gl.BLEND); else gl.disable(gl.BLEND);
+    if (blend) gl.enable(gl.BLEND);
+    else gl.disable(gl.BLEND);
     gl.bindVertexArray(layer.vao);
     drawArrays();
     gl.bindVertexArray(null);
   }
 
-  /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1: dots are drawn again there, each in a colour
-   * of its own. */
+  /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1. Draws the dots there
+   * again, each in a color of its own. */
   pick(x, y) {
-    const { gl, canvas } = this, side = View.PICK, ratio = canvas.width / canvas.clientWidth;
-    const wide = canvas.width / side, high = canvas.height / side;
-    const [cx, cy] = [2 * x * ratio / canvas.width - 1, 1 - 2 * y * ratio / canvas.height];
-    const whole = this.matrix(), crop = new Float32Array(whole);
+    const { gl, canvas } = this,
+      side = View.PICK,
+      ratio = canvas.width / canvas.clientWidth;
+    const wide = canvas.width / side,
+      high = canvas.height / side;
+    const [cx, cy] = [(2 * x * ratio) / canvas.width - 1, 1 - (2 * y * ratio) / canvas.height];
+    const whole = this.matrix(),
+      crop = new Float32Array(whole);
     for (let column = 0; column < 4; column++) {
       crop[4 * column] = wide * (whole[4 * column] - cx * whole[4 * column + 3]);
       crop[4 * column + 1] = high * (whole[4 * column + 1] - cy * whole[4 * column + 3]);
@@ -341,9 +467,12 @@ class View {
     const pixels = new Uint8Array(4 * side * side);
     gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    let best = -1, nearest = Infinity;
+    let best = -1,
+      nearest = Infinity;
     for (let i = 0; i < side * side; i++) {
-      const id = pixels[4 * i] + 256 * (pixels[4 * i + 1] + 256 * (pixels[4 * i + 2] + 256 * pixels[4 * i + 3]));
+      const id =
+        pixels[4 * i] +
+        256 * (pixels[4 * i + 1] + 256 * (pixels[4 * i + 2] + 256 * pixels[4 * i + 3]));
       const away = Math.hypot((i % side) - (side - 1) / 2, Math.floor(i / side) - (side - 1) / 2);
       if (id > 0 && away < nearest) [best, nearest] = [id - 1, away];
     }
@@ -351,14 +480,24 @@ class View {
   }
 }
 
-/** Lets pointers, the wheel and the keyboard turn `view`; `onClick` is told of clicks, `onCentre` of double-clicks. */
+/** Lets pointers, the wheel and the keyboard turn `view`. Calls `onClick` for a click and
+ * `onCentre` for a double-click. */
 function orbit(view, onClick, onCentre) {
   const { canvas } = view;
   const pointers = new Map();
   let moved = 0;
   const turn = (dx, dy) => view.look({ yaw: view.camera.yaw + dx, pitch: view.camera.pitch - dy });
-  const zoom = (by) => view.look({ distance: Math.min(Math.max(view.camera.distance * by, view.camera.size / 500), view.camera.size * 20) });
-  const spread = () => { const [a, b] = [...pointers.values()]; return Math.hypot(a.x - b.x, a.y - b.y); };
+  const zoom = (by) =>
+    view.look({
+      distance: Math.min(
+        Math.max(view.camera.distance * by, view.camera.size / 500),
+        view.camera.size * 20,
+      ),
+    });
+  const spread = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
@@ -373,17 +512,31 @@ function orbit(view, onClick, onCentre) {
     moved += Math.abs(dx) + Math.abs(dy);
     if (pointers.size === 2) zoom(before / spread());
     else if (event.shiftKey || event.buttons === 4) {
-      const { right, up } = view.axes(), by = 2 * view.halfHeight * view.camera.distance / canvas.clientHeight;
+      const { right, up } = view.axes(),
+        by = (2 * view.halfHeight * view.camera.distance) / canvas.clientHeight;
       view.look({ target: add(add(view.camera.target, right, -dx * by), up, dy * by) });
     } else turn(dx * 0.006, dy * 0.006);
   });
   const release = (event) => {
-    if (!pointers.delete(event.pointerId) || event.type !== "pointerup" || moved > 6 || pointers.size) return;
+    if (
+      !pointers.delete(event.pointerId) ||
+      event.type !== "pointerup" ||
+      moved > 6 ||
+      pointers.size
+    )
+      return;
     onClick(event.offsetX, event.offsetY);
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("dblclick", (event) => onCentre(event.offsetX, event.offsetY));
-  canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoom(Math.exp(event.deltaY * 0.0012)); }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      zoom(Math.exp(event.deltaY * 0.0012));
+    },
+    { passive: false },
+  );
   return { turn, zoom };
 }

@@ -72,7 +72,8 @@ pub(crate) struct Overlay {
     /// For each record that moved: the stored photon that it should be, and where it is.
     pub moved_index: Vec<u32>,
     pub moved: Vec<[f32; 3]>,
-    /// The records that only the other list has, with the largest number for what it does not tell.
+    /// The records that only the other list has, with the largest number for what it does not
+    /// tell.
     pub extra: Vec<[f32; 3]>,
     pub extra_photon: Vec<u32>,
     pub extra_bounce: Vec<u16>,
@@ -181,7 +182,8 @@ impl Comparison {
         }
     }
 
-    /// The overlay; `places` has the place of each record of the reference among the page's photons.
+    /// The overlay; `places` has the place of each record of the reference among the page's
+    /// photons.
     pub(crate) fn overlay(&self, places: &[Option<u32>]) -> Overlay {
         let shown = places.iter().flatten().count();
         let mut overlay = Overlay { kinds: vec![0; shown], ..Overlay::default() };

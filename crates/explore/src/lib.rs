@@ -1,8 +1,8 @@
 //! One page that shows the box in 3-D with all stored photons, and steps through the port's own
 //! source on one photon with its numbers.
 //!
-//! The page is one file: it needs no server and no network. It draws what the port computed: stories
-//! come from [`compare::explain`], lists and comparisons from their own crates. Only the
+//! The page is one file: it needs no server and no network. It draws what the port computed:
+//! stories come from [`compare::explain`], lists and comparisons from their own crates. Only the
 //! random numbers are drawn again in the page, since they would double its size.
 
 pub mod comparison;

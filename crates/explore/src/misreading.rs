@@ -48,7 +48,8 @@ pub fn trace(name: &str, run: &Run) -> Option<(Other, Vec<PhotonRecord>)> {
     };
     let all = 0..run.renderer.emitted();
     if name == "no-offset" {
-        // How often a photon hits the surface it leaves depends on rounding, so it is traced as it is.
+        // How often a photon hits the surface it leaves depends on rounding, so it is traced as it
+        // is.
         let reading = Reading { offset: Offset::None, ..run.reading };
         let mut records = Vec::new();
         let traced: Result<_, std::convert::Infallible> = Run { reading, ..run.clone() }

@@ -30,7 +30,8 @@ pub fn page(exploration: &Exploration) -> String {
     let paths = Paths::new(exploration);
     let (meta, data) = rayon::join(|| meta(exploration, &paths), || paths.columns.to_base64());
     let policy = format!(
-        "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
+        "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; \
+         form-action 'none'",
         hash(SCRIPT),
         hash(STYLE)
     );

@@ -102,7 +102,8 @@ impl Paths {
     }
 }
 
-/// Whole paths of `records`, evenly spread, that are at most about `most` records; nothing if all are.
+/// Whole paths of `records`, evenly spread, that are at most about `most` records; nothing if all
+/// are.
 fn thin(records: &[PhotonRecord], most: usize) -> Option<Vec<PhotonRecord>> {
     if records.len() <= most {
         return None;
@@ -277,7 +278,8 @@ fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
         let distance = -camera.position.dot(camera.forward);
         let target = (camera.position + distance * camera.forward).to_array();
         return json!({
-            "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0, "halfHeight": half_height
+            "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0,
+            "halfHeight": half_height
         });
     }
     let corners = || {
@@ -287,7 +289,10 @@ fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
     let low = corners().fold(Vec3::INFINITY, Vec3::min);
     let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
     let target = ((low + high) / 2.0).to_array();
-    json!({ "target": target, "distance": 2.8 * size, "yaw": 0.5, "pitch": -0.35, "halfHeight": half_height })
+    json!({
+        "target": target, "distance": 2.8 * size, "yaw": 0.5, "pitch": -0.35,
+        "halfHeight": half_height
+    })
 }
 
 impl Comparison {

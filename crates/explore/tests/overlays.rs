@@ -45,8 +45,8 @@ fn every_misreading_opens_where_it_differs() {
         assert_eq!(text("verdict"), format!("{name}: {title}"));
         assert_eq!(text("step-title"), title, "{name}");
         assert_eq!(browser.run("document.getElementById('sides').hidden"), false, "{name}");
-        // The photon that is open stores something else in the two lists, and the step is the one that
-        // makes the first difference.
+        // The photon that is open stores something else in the two lists, and the step is the one
+        // that makes the first difference.
         let photon = float(&browser.run("page.photon")) as u32;
         let of = |list: &[PhotonRecord]| -> Vec<_> {
             let of_photon = list.iter().filter(|record| record.photon == photon);
@@ -123,7 +123,8 @@ fn a_submission_shows_where_it_parts() {
 fn hostile_names_stay_names() {
     let Some(browser) = launch(true) else { return };
     let mut reference = traced("");
-    let name = "</script><script>window.hurt = 1</script><img src=x onerror='hurt=1'>{data}{script}\u{2028}.csv";
+    let name = "</script><script>window.hurt = 1</script><img src=x \
+                onerror='hurt=1'>{data}{script}\u{2028}.csv";
     reference.table.0[0].name = name.to_owned();
     let mut list = reference.list();
     list.records[10].position.x += 0.2;
@@ -137,6 +138,9 @@ fn hostile_names_stay_names() {
     assert_eq!(browser.text("document.querySelector('#table tbody th').textContent"), name);
     assert_eq!(browser.run("document.querySelectorAll('script').length"), 3);
     // Should anything get through all the same, the policy keeps it from running.
-    browser.run("document.body.append(Object.assign(document.createElement('script'), { textContent: 'window.hurt = 2' }))");
+    browser.run(
+        "document.body.append(Object.assign(document.createElement('script'), { textContent: \
+         'window.hurt = 2' }))",
+    );
     assert_eq!(browser.run("window.hurt"), json!(null));
 }

@@ -32,11 +32,14 @@ fn open_handout(link: &str) -> Option<Browser> {
     Some(browser)
 }
 
-/// Each step of the photon that is open: its bounce, name, values beside the code, and other values.
+/// Each step of the photon that is open: its bounce, name, values beside the code, and other
+/// values.
 const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
     link: page.link, title: document.getElementById('step-title').textContent,
-    values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => [v.dataset.name, v.textContent])),
-    more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, t.nextSibling.textContent])) }; })";
+    values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => \
+        [v.dataset.name, v.textContent])),
+    more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, \
+        t.nextSibling.textContent])) }; })";
 
 /// The pixels of all photons that the handout's camera sees.
 fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
@@ -62,13 +65,23 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let Some(browser) = open_handout("") else { return };
     browser.media("prefers-reduced-motion", "reduce");
     browser.run("document.getElementById('view').style.cssText = 'width: 640px; height: 480px'");
-    browser.run("const colors = document.getElementById('colors'); colors.value = 'red'; colors.dispatchEvent(new Event('input'))");
+    browser.run(
+        "const colors = document.getElementById('colors'); colors.value = 'red'; \
+         colors.dispatchEvent(new Event('input'))",
+    );
     browser.click_on("#home");
     // The path and its labels would hide dots.
-    browser.run("page.view.setLines('path', []); page.view.setMarks([]); document.getElementById('labels').style.display = 'none'");
+    browser.run(
+        "page.view.setLines('path', []); page.view.setMarks([]); \
+         document.getElementById('labels').style.display = 'none'",
+    );
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
-    let place = browser.run("(() => { const r = document.getElementById('view').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; })()");
+    let place = browser.run(
+        "(() => { const r = \
+         document.getElementById('view').getBoundingClientRect(); return [r.x, \
+         r.y, r.width, r.height]; })()",
+    );
     let [left, top, width, height] = [0, 1, 2, 3].map(|i| float(&place[i]) as u32);
     assert_eq!((width, height), (640, 480));
     let shot = browser.screenshot();
@@ -92,8 +105,8 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let found = red.iter().filter(|(x, y)| near(*x, *y, &is_drawn)).count();
     assert!(red.len() > 10_000, "{}", red.len());
     assert!(found * 100 >= red.len() * 99, "{found} of {}", red.len());
-    // And no dots but those of photons in sight. The picture misses some of these: seen at a grazing
-    // angle, a dot is narrower than a pixel.
+    // And no dots but those of photons in sight. The picture misses some of these: seen at a
+    // grazing angle, a dot is narrower than a pixel.
     let in_sight = dots_in_sight(&handout().0);
     let all = (0..480).flat_map(|y| (0..640).map(move |x| (x, y)));
     let drawn: Vec<_> = all.filter(|(x, y)| is_drawn(*x, *y)).collect();
@@ -113,10 +126,17 @@ fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
     browser.media("prefers-reduced-motion", "reduce");
     // Close to the dot, so that no other is as near to the click.
-    browser.run("const stored = page.run.firstStored[page.run.pathOfPhoton(73)]; \
-                 page.view.look({ target: [...page.positions.subarray(3 * stored, 3 * stored + 3)], distance: 0.3, yaw: 1.2, pitch: 0 });");
+    browser.run(
+        "const stored = page.run.firstStored[page.run.pathOfPhoton(73)]; \
+         page.view.look({ target: [...page.positions.subarray(3 * stored, 3 * stored + \
+         3)], distance: 0.3, yaw: 1.2, pitch: 0 });",
+    );
     browser.settle();
-    let place = browser.run("(() => { const [x, y] = page.view.project(page.view.camera.target); const r = page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; })()");
+    let place = browser.run(
+        "(() => { const [x, y] = page.view.project(page.view.camera.target); \
+         const r = page.view.canvas.getBoundingClientRect(); return [r.x + x, \
+         r.y + y]; })()",
+    );
     let before = Instant::now();
     browser.click(float(&place[0]), float(&place[1]));
     browser.wait_for("location.hash === '#photon=73&bounce=1&step=stored'");
@@ -266,9 +286,17 @@ fn the_mouse_turns_zooms_and_centers() {
     browser.settle();
     // A double-click on a dot turns the box around it from then on.
     let dot = "[...page.positions.subarray(0, 3)]";
-    browser.run(&format!("page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); page.view.look({{ target: page.view.camera.target.map((x) => x + 0.01) }})"));
+    browser.run(&format!(
+        "page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); \
+         page.view.look({{ target: page.view.camera.target.map((x) => x + 0.01) \
+         }})"
+    ));
     browser.settle();
-    let place = browser.run(&format!("(() => {{ const [x, y] = page.view.project({dot}); const r = page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; }})()"));
+    let place = browser.run(&format!(
+        "(() => {{ const [x, y] = page.view.project({dot}); const r = \
+         page.view.canvas.getBoundingClientRect(); return [r.x + x, \
+         r.y + y]; }})()"
+    ));
     let (x, y) = (float(&place[0]), float(&place[1]));
     browser.double_click(x, y);
     browser.wait_for(&format!(
@@ -343,7 +371,11 @@ fn the_keyboard_alone_is_enough() {
 fn table_and_filters_show_what_they_say() {
     let Some(browser) = open_handout("") else { return };
     let (surfaces, total) = &handout().0.table;
-    let cells = browser.run("[...document.querySelectorAll('#table tbody tr')].map((row) => [...row.querySelectorAll('b')].map((b) => Number(b.textContent.replaceAll(',', ''))))");
+    let cells = browser.run(
+        "[...document.querySelectorAll('#table tbody tr')].map((row) => \
+         [...row.querySelectorAll('b')].map((b) => \
+         Number(b.textContent.replaceAll(',', ''))))",
+    );
     for (row, surface) in surfaces.iter().chain([total]).enumerate() {
         let counts = surface.by_bounce.iter().take(3).map(|cell| cell.stored);
         for (column, stored) in counts.chain([surface.late.stored, surface.stored]).enumerate() {
@@ -362,8 +394,12 @@ fn table_and_filters_show_what_they_say() {
     let others = total.stored - total.by_bounce[0].stored;
     assert_eq!(shown(), format!("{},{:03} photons shown.", others / 1000, others % 1000));
     browser.click_on("#by-bounce input");
-    browser.run("for (const [id, value] of [['from', 73], ['to', 73]]) { const field = document.getElementById(id); field.value = value; field.dispatchEvent(new Event('input')); }");
-    assert_eq!(shown(), "1 photons shown.");
+    browser.run(
+        "for (const [id, value] of [['from', 73], ['to', 73]]) { const field = \
+         document.getElementById(id); field.value = value; field.dispatchEvent(new \
+         Event('input')); }",
+    );
+    assert_eq!(shown(), "1 photon shown.");
     browser.has_been_quiet();
 }
 
@@ -381,7 +417,12 @@ fn it_works_on_a_phone() {
         }
     }
     browser.media("prefers-reduced-motion", "reduce");
-    let place = browser.run("(() => { const b = [...document.querySelectorAll('#names button')].find((b) => b.textContent === 'Roulette'); b.scrollIntoView({ block: 'center' }); const r = b.getBoundingClientRect(); return [r.x + 9, r.y + 9]; })()");
+    let place = browser.run(
+        "(() => { const b = [...document.querySelectorAll('#names \
+         button')].find((b) => b.textContent === 'Roulette'); \
+         b.scrollIntoView({ block: 'center' }); const r = \
+         b.getBoundingClientRect(); return [r.x + 9, r.y + 9]; })()",
+    );
     browser.tap(float(&place[0]), float(&place[1]));
     browser.wait_for("location.hash.endsWith('step=roulette')");
     browser.has_been_quiet();
@@ -483,11 +524,21 @@ fn page_of_the_default_run_is_small_and_quick() {
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
     let first = float(&browser.run("page.firstFrame"));
     // Frames drawn one after another while the camera turns, each waited for.
-    let frames = float(&browser.run("(async () => { const start = performance.now(); let frames = 0; while (performance.now() - start < 2000) { \
-        page.view.look({ yaw: page.view.camera.yaw + 0.02 }); await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))); frames++; } return 1000 * frames / (performance.now() - start); })()"));
-    let click = float(&browser.run("(() => { const start = performance.now(); page.open(253, 0, 'hit'); page.view.drawNow(); page.view.gl.finish(); return performance.now() - start; })()"));
+    let frames = float(&browser.run(
+        "(async () => { const start = performance.now(); let frames = \
+         0; while (performance.now() - start < 2000) { \
+         page.view.look({ yaw: page.view.camera.yaw + 0.02 }); await new Promise((done) => \
+         requestAnimationFrame(() => requestAnimationFrame(done))); frames++; } return 1000 * \
+         frames / (performance.now() - start); })()",
+    ));
+    let click = float(&browser.run(
+        "(() => { const start = performance.now(); page.open(253, 0, \
+         'hit'); page.view.drawNow(); page.view.gl.finish(); return \
+         performance.now() - start; })()",
+    ));
     eprintln!(
-        "page {size} bytes, first frame {first:.0} ms, {frames:.0} frames/s, a click to its path and story {click:.1} ms"
+        "page {size} bytes, first frame {first:.0} ms, {frames:.0} frames/s, a click to its path \
+         and story {click:.1} ms"
     );
     // Generous beside the targets of 1500 ms, 20 frames/s and 50 ms: other tests run at once.
     assert!(

@@ -42,8 +42,9 @@ fn photons(count: u64, threads: usize) {
     });
 }
 
-/// Prints seconds for the build, nanoseconds a ray, and how many rays hit, for the mesh and the rays
-/// in the file `path`: their numbers as u64, then f32, three corners a triangle, origins, directions.
+/// Prints seconds for the build, nanoseconds a ray, and how many rays hit, for the mesh and the
+/// rays in the file `path`: their numbers as u64, then f32, three corners a triangle, origins,
+/// directions.
 fn mesh(path: &str) {
     let mut bytes = Vec::new();
     let mut file = std::fs::File::open(path).expect("the mesh");

@@ -1,5 +1,5 @@
-//! Traces the reference run in lanes of every width and holds the hashes against the golden one. Exits
-//! with 1 when one differs.
+//! Traces the reference run in lanes of every width and holds the hashes against the golden one.
+//! Exits with 1 when one differs.
 
 use std::process::ExitCode;
 

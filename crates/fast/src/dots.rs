@@ -66,8 +66,9 @@ impl Dots {
         PhotonMap::new(std::mem::take(&mut self.waiting))
     }
 
-    /// Turns the pixels red that the photons looked up so far are near. To add 1 to a red that is not
-    /// negative, as [`photon_mapping::rendering::photon_mapping_renderer`] does, makes it the brightest red there is.
+    /// Turns the pixels red that the photons looked up so far are near. To add 1 to a red that is
+    /// not negative, as [`photon_mapping::rendering::photon_mapping_renderer`] does, makes it
+    /// the brightest red there is.
     pub fn draw(&self, picture: &mut RgbImage) {
         for (column, row) in self.pixels.iter().flat_map(|pixels| &pixels.red) {
             picture.get_pixel_mut(*column, *row).0[0] = 255;

@@ -9,9 +9,9 @@ const MOST_AHEAD: usize = 64;
 /// Does `work` on `pieces` with all threads of the current rayon pool and hands the results to
 /// `consume`, one at a time and in order. Memory does not grow with the number of pieces.
 ///
-/// No thread waits while there is something to do: each consumes the next result, if it is there, or
-/// else works on the next piece. A parallel iterator would divide the pieces beforehand, and a thread
-/// that is held up would hold up the others. `consume` must not use the pool itself.
+/// No thread waits while there is something to do: each consumes the next result, if it is there,
+/// or else works on the next piece. A parallel iterator would divide the pieces beforehand, and a
+/// thread that is held up would hold up the others. `consume` must not use the pool itself.
 ///
 /// # Errors
 /// The first error of `consume`, which ends the work.

@@ -38,8 +38,8 @@ impl fmt::Display for Difference {
 /// Traces the photons numbered `photons` on all threads of the current rayon pool and hands their
 /// records to `consume` in order, with the number of photons done so far: see [`in_order`].
 ///
-/// Before that, a sample of the photons goes through lanes and port. If a bit differs, all photons go
-/// through the port, and the difference is returned.
+/// Before that, a sample of the photons goes through lanes and port. If a bit differs, all photons
+/// go through the port, and the difference is returned.
 ///
 /// # Errors
 /// The first error of `consume`, which ends the tracing.

@@ -1,19 +1,21 @@
 //! A tree of boxes for scenes of many triangles. The handout's scene has none.
 //!
 //! **Hits do not depend on the tree.** It only leaves out triangles; each that remains is tested by
-//! [`photon_mapping::scene::triangle`], and of hits at the same distance the lowest index counts, as without a tree.
-//! So it must never leave out a triangle that the test would accept. The test sees each corner where
-//! it is up to a few roundings: one of `corner - origin`, three of the shear, each at most 2^-24 of
-//! the largest coordinate M of `corner - origin`. A ray that it accepts therefore passes the exact
-//! triangle within 6 * 2^-24 M, and its rounded t lies within 12 * 2^-24 M of the exact distance.
-//! Every box is taken larger by 2^-19 M on each side (M over the whole scene, found once for a ray),
-//! and a box is passed over for being too far only beyond twice that. That is 32 of these roundings,
-//! and covers those of the box test itself (Ize, *Robust BVH Ray Traversal*, JCGT 2013).
+//! [`photon_mapping::scene::triangle`], and of hits at the same distance the lowest index counts,
+//! as without a tree. So it must never leave out a triangle that the test would accept. The test
+//! sees each corner where it is up to a few roundings: one of `corner - origin`, three of the
+//! shear, each at most 2^-24 of the largest coordinate M of `corner - origin`. A ray that it
+//! accepts therefore passes the exact triangle within 6 * 2^-24 M, and its rounded t lies within 12
+//! * 2^-24 M of the exact distance. Every box is taken larger by 2^-19 M on each side (M over the
+//! whole scene, found once for a ray), and a box is passed over for being too far only beyond twice
+//! that. That is 32 of these roundings, and covers those of the box test itself (Ize, *Robust BVH
+//! Ray Traversal*, JCGT 2013).
 //!
 //! Eight boxes a node, so that few nodes are waited for one after another, and four triangles a
-//! leaf, because every processor of the common targets has vectors of four; built from the top by the surface area heuristic with bins (Wald, *On fast
-//! Construction of SAH-based Bounding Volume Hierarchies*, 2007). Our own, because the crates for
-//! such trees bring their own triangle tests or boxes that are not conservative.
+//! leaf, because every processor of the common targets has vectors of four; built from the top by
+//! the surface area heuristic with bins (Wald, *On fast Construction of SAH-based Bounding Volume
+//! Hierarchies*, 2007). Our own, because the crates for such trees bring their own triangle tests
+//! or boxes that are not conservative.
 
 use std::sync::Arc;
 
@@ -372,9 +374,10 @@ impl Leaf {
     }
 }
 
-/// The triangles halved until all parts fit a leaf: what nodes are then made of, so that a ray enters as few as can be.
-/// To halve three times for every node would leave half of the boxes empty. (Ylitie, Karras and Laine,
-/// *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017.)
+/// The triangles halved until all parts fit a leaf: what nodes are then made of, so that a ray
+/// enters as few as can be. To halve three times for every node would leave half of the boxes
+/// empty. (Ylitie, Karras and Laine, *Efficient Incoherent Ray Traversal on GPUs Through Compressed
+/// Wide BVHs*, 2017.)
 #[derive(Default)]
 struct Halving<'items> {
     halved: Vec<Halved<'items>>,
@@ -390,8 +393,9 @@ enum Part<'items> {
 struct Halved<'items> {
     bounds: Bounds,
     halves: [Part<'items>; 2],
-    /// At `n - 1`, how many nodes are entered in this part if it becomes at most `n` boxes of the node above it: the
-    /// sum of the areas of all those nodes, to which the numbers of rays are proportional.
+    /// At `n - 1`, how many nodes are entered in this part if it becomes at most `n` boxes of the
+    /// node above it: the sum of the areas of all those nodes, to which the numbers of rays
+    /// are proportional.
     nodes: [f32; WIDTH],
 }
 
@@ -459,8 +463,8 @@ impl<'items> Halving<'items> {
     }
 }
 
-/// How many nodes are entered in two halves that share `boxes`, when the first has as many as are best, and how many
-/// these are.
+/// How many nodes are entered in two halves that share `boxes`, when the first has as many as are
+/// best, and how many these are.
 fn best_share(left: &[f32; WIDTH], right: &[f32; WIDTH], boxes: usize) -> (f32, usize) {
     let shares = (1..boxes).map(|share| (left[share - 1] + right[boxes - share - 1], share));
     shares.fold((f32::INFINITY, 1), |best, share| if share.0 < best.0 { share } else { best })

@@ -15,8 +15,8 @@ use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
 use rayon::prelude::*;
 
-/// A closed mesh of 20 * 4^`level` triangles about the origin: a sphere whose corners are moved to where
-/// `place` puts each, given its number.
+/// A closed mesh of 20 * 4^`level` triangles about the origin: a sphere whose corners are moved to
+/// where `place` puts each, given its number.
 fn closed_mesh(level: u32, place: impl Fn(usize, Vec3) -> Vec3) -> Vec<Triangle> {
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut corners: Vec<DVec3> = Vec::new();
@@ -152,8 +152,8 @@ fn scene_of(triangles: &[Triangle]) -> Scene {
     scene
 }
 
-/// How many of `count` photons get lost of a light in the middle of `triangles`. Nothing is absorbed, so each
-/// should bounce as often as it may.
+/// How many of `count` photons get lost of a light in the middle of `triangles`. Nothing is
+/// absorbed, so each should bounce as often as it may.
 fn lost(triangles: Vec<Triangle>, seed: u64, count: u64, max_photon_bounces: i32) -> u64 {
     let white = MeshObject { name: String::new(), material: Material::new(Vec3::ONE) };
     let light = PointLight { position: Vec3::ZERO, color: Vec3::ONE };
@@ -192,8 +192,9 @@ fn sharpest_angle(triangles: &[Triangle]) -> f32 {
     sharpest
 }
 
-/// In a corner sharper than a right angle the offset leads some photons behind the other wall: those that
-/// land as near to the edge. The start's error gives half of them back; here 0.6 of a million are lost.
+/// In a corner sharper than a right angle the offset leads some photons behind the other wall:
+/// those that land as near to the edge. The start's error gives half of them back; here 0.6 of a
+/// million are lost.
 #[test]
 fn photons_lost_in_acute_corners_are_rare() {
     let triangles = tetrahedron();
@@ -212,6 +213,7 @@ proptest! {
         let radius = |number: usize| 1.0 - roughness * photon_random(seed, number as u64)();
         let triangles = closed_mesh(level, |number, corner| radius(number) * corner);
         let scene = scene_of(&triangles);
+        let light = assignment8::create_scene().lights()[0];
         for number in 0..6_000_u64 {
             let mut rand = photon_random(seed ^ 1, number);
             let triangle = &triangles[number as usize % triangles.len()];
@@ -222,7 +224,7 @@ proptest! {
             let from = from * 0.95 * rand();
             // Rays go anywhere, to edges and to corners, whatever they meet on their way.
             let direction = match number % 3 {
-                0 => assignment8::create_scene().lights()[0].generate_random_photon_ray(&mut rand).ray_direction(),
+                0 => light.generate_random_photon_ray(&mut rand).ray_direction(),
                 1 => (a.lerp(b, rand()) - from).normalize(),
                 _ => (c - from).normalize(),
             };

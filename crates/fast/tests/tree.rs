@@ -25,7 +25,8 @@ fn triangle(vertices: [Vec3; 3]) -> Triangle {
     Triangle { vertices, normal: Vec3::Z, parent_mesh_object: 0, facet: 0 }
 }
 
-/// A normal at right angles to a ray now and then, and not that of any plane, as a file's need not be.
+/// A normal at right angles to a ray now and then, and not that of any plane, as a file's need not
+/// be.
 fn normal() -> impl Strategy<Value = Vec3> {
     prop_oneof![
         Just(Vec3::X),
@@ -43,8 +44,8 @@ fn point() -> impl Strategy<Value = Vec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| Vec3::new(x, y, z))
 }
 
-/// In so many layers more boxes wait to be visited than ordinarily: those of the lower layers in every node down to
-/// the leaf.
+/// In so many layers more boxes wait to be visited than ordinarily: those of the lower layers in
+/// every node down to the leaf.
 #[test]
 fn the_tree_forgets_no_box_of_many() {
     let layer = |number: u16| {
@@ -111,7 +112,7 @@ proptest! {
             // Every other ray aims at a corner or at the middle of an edge.
             let aim = match triangles.get(place / 2) {
                 Some(triangle) if place % 4 == 0 => triangle.vertices[0],
-                Some(triangle) if place % 4 == 2 => 0.5 * (triangle.vertices[0] + triangle.vertices[1]),
+                Some(Triangle { vertices: [a, b, _], .. }) if place % 4 == 2 => 0.5 * (*a + *b),
                 _ => *target + Vec3::splat(shift),
             };
             let Some(direction) = (aim - origin).try_normalize() else {

@@ -1,9 +1,9 @@
 //! Third and later hits, and how the hits of one path go together, on a mesh.
 //!
-//! With A the operator (A f)(x) = P_r(x) * mean of f over the cosine lobe of x, and f_b = 1 on facet b, the expected
-//! hits are N_k,b = integral of n2 A^(k-2) f_b. On the mesh (collocation, piecewise linear) n2 becomes weights a_2 at
-//! the nodes, and a_{k+1} = A^T a_k. The first factor, g_b = A f_b = P_r times the form factor of b, is exact at every
-//! node: N_{k+1},b = a_k . g_b.
+//! With A the operator (A f)(x) = P_r(x) * mean of f over the cosine lobe of x, and f_b = 1 on
+//! facet b, the expected hits are N_k,b = integral of n2 A^(k-2) f_b. On the mesh (collocation,
+//! piecewise linear) n2 becomes weights a_2 at the nodes, and a_{k+1} = A^T a_k. The first factor,
+//! g_b = A f_b = P_r times the form factor of b, is exact at every node: N_{k+1},b = a_k . g_b.
 
 use super::direct::Direct;
 use super::mesh::{Mesh, Row, View};
@@ -39,8 +39,9 @@ const NEGLIGIBLE: f64 = 1e-15;
 
 /// Follows hits from the second on over a mesh, at most `most` of them.
 ///
-/// `known` holds the exact hits per plate of bounces 1, 2 and, if known, 3; the weights at the nodes are scaled to them
-/// plate by plate, which takes out most of the quadrature's error. `surface_of` numbers each plate's surface.
+/// `known` holds the exact hits per plate of bounces 1, 2 and, if known, 3; the weights at the
+/// nodes are scaled to them plate by plate, which takes out most of the quadrature's error.
+/// `surface_of` numbers each plate's surface.
 pub fn follow(
     scene: &Scene,
     direct: &Direct,
@@ -116,7 +117,8 @@ fn nodes(scene: &Scene, direct: &Direct, mesh: &Mesh) -> Vec<Node> {
         .collect()
 }
 
-/// Scales the weights on each plate so that they sum to `exact`; where all nodes missed, spreads it evenly.
+/// Scales the weights on each plate so that they sum to `exact`; where all nodes missed, spreads it
+/// evenly.
 fn scale_to(weights: &mut [f64], nodes: &[Node], exact: &[f64]) {
     let (mut sums, mut areas) = (vec![0.0; exact.len()], vec![0.0; exact.len()]);
     for (node, weight) in nodes.iter().zip(&*weights) {
@@ -133,7 +135,8 @@ fn scale_to(weights: &mut [f64], nodes: &[Node], exact: &[f64]) {
     }
 }
 
-/// Sum over 2 <= j < k <= most of E[I_j,a I_k,b] = a_j . (g_b + A g_b + ... + A^(most - j - 1) g_b) over the nodes of a.
+/// Sum over 2 <= j < k <= most of E[I_j,a I_k,b] = a_j . (g_b + A g_b + ... + A^(most - j - 1) g_b)
+/// over the nodes of a.
 fn pairs(nodes: &[Node], stages: &[Vec<f64>], surface_of: &[usize]) -> Vec<Vec<f64>> {
     let surfaces = surface_of.iter().max().map_or(0, |&highest| highest + 1);
     let mut pairs = vec![vec![0.0; surfaces]; surfaces];

@@ -1,11 +1,12 @@
-//! Where to cut facets so that densities are smooth on the pieces: along the planes of other facets, and in strips along
-//! edges where facets touch.
+//! Where to cut facets so that densities are smooth on the pieces: along the planes of other
+//! facets, and in strips along edges where facets touch.
 
 use super::polygon::{Plane, Polygon, side_planes, split};
 use super::scene::{IN_PLANE, Scene, Side};
 use glam::DVec3;
 
-/// Planes `widths` scene units away from those edges of `polygon`, a piece of `plate`, at which it touches a facet that it sees.
+/// Planes `widths` scene units away from those edges of `polygon`, a piece of `plate`, at which it
+/// touches a facet that it sees.
 pub fn strips(scene: &Scene, plate: usize, polygon: &[DVec3], widths: &[f64]) -> Vec<Plane> {
     let mut planes = Vec::new();
     for side in side_planes(polygon, scene.plates[plate].plane.normal) {

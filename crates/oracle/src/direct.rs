@@ -58,8 +58,8 @@ impl Direct {
         Self { pieces, by_plate, hits, rule, ratio }
     }
 
-    /// Density of first hits from one emitter at a lit point of a plate, per emitted photon and scene unit of area:
-    /// share |cos| / (4 pi r^2).
+    /// Density of first hits from one emitter at a lit point of a plate, per emitted photon and
+    /// scene unit of area: share |cos| / (4 pi r^2).
     pub fn density(&self, scene: &Scene, emitter: usize, plate: usize, point: DVec3) -> f64 {
         let (position, share) = scene.emitters[emitter];
         let towards = position - point;
@@ -68,11 +68,12 @@ impl Direct {
         share * cosine / (4.0 * PI * squared)
     }
 
-    /// Density of second hits at `point` of plate `at`, per emitted photon and scene unit of area: the integral over
-    /// the lit points x of P_r n1(x) cos cos / (pi r^2), of those that scatter towards the point.
+    /// Density of second hits at `point` of plate `at`, per emitted photon and scene unit of area:
+    /// the integral over the lit points x of P_r n1(x) cos cos / (pi r^2), of those that
+    /// scatter towards the point.
     ///
-    /// Exactly visible pieces, so that the integrand is smooth. The closed form factor of each piece times the mean of
-    /// n1 over it; only the mean is a quadrature.
+    /// Exactly visible pieces, so that the integrand is smooth. The closed form factor of each
+    /// piece times the mean of n1 over it; only the mean is a quadrature.
     pub fn second_hit_density(&self, scene: &Scene, at: usize, point: DVec3) -> f64 {
         let mut density = 0.0;
         for side in [Side::Front, Side::Back] {

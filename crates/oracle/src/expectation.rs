@@ -20,7 +20,8 @@ impl std::iter::Sum for Bounded {
     }
 }
 
-/// Expected hits on one facet per emitted photon. Entry k is hit number k + 1 of a path: 0 the direct hits.
+/// Expected hits on one facet per emitted photon. Entry k is hit number k + 1 of a path: 0 the
+/// direct hits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FacetHits {
     /// Number of the surface it belongs to.
@@ -54,7 +55,8 @@ impl FacetHits {
 pub struct Expectation {
     /// In the order the facets were given.
     pub facets: Vec<FacetHits>,
-    /// The surface numbers that occur, ascending: the order of the rows and columns of `covariance`.
+    /// The surface numbers that occur, ascending: the order of the rows and columns of
+    /// `covariance`.
     pub surfaces: Vec<usize>,
     /// Covariance, over paths, of the numbers of hits stored on two surfaces.
     pub covariance: Vec<Vec<Bounded>>,
@@ -106,7 +108,8 @@ impl Expectation {
         self.covariance.iter().flatten().copied().sum()
     }
 
-    /// Variance over mean of the number of stored hits: 1 if photons were independent. Zero if none is stored.
+    /// Variance over mean of the number of stored hits: 1 if photons were independent. Zero if none
+    /// is stored.
     pub fn spread(&self) -> Bounded {
         let (variance, stored) = (self.variance(), self.stored());
         if stored.value <= 0.0 {

@@ -8,8 +8,8 @@ pub const RIGHT_WALL: usize = 1;
 pub const TALL_BOX: usize = 2;
 pub const FLOOR: usize = 3;
 
-/// The handout's scene: corners in model axes, a point inside the box (or behind the wall, or below the floor) that the
-/// normals point away from.
+/// The handout's scene: corners in model axes, a point inside the box (or behind the wall, or below
+/// the floor) that the normals point away from.
 pub fn handout() -> (Vec<Facet>, Vec<Emitter>) {
     let short = [0.325, 0.3, 0.375];
     let tall = [-0.335, 0.6, -0.29];

@@ -58,8 +58,8 @@ pub fn expect_for_scene(
     (ids, expectation)
 }
 
-/// The face of `triangles`, a fan about its first corner, as one polygon where it is flat and convex,
-/// else as its triangles.
+/// The face of `triangles`, a fan about its first corner, as one polygon where it is flat and
+/// convex, else as its triangles.
 fn polygons(triangles: &[Triangle]) -> Vec<Vec<DVec3>> {
     let fan: Vec<_> = triangles.iter().map(|triangle| triangle.vertices.map(figures)).collect();
     let mut polygon = vec![fan[0][0], fan[0][1]];
@@ -108,8 +108,8 @@ fn figures(vector: Vec3) -> DVec3 {
     DVec3::from_array(vector.to_array().map(figure))
 }
 
-/// The shortest decimal that rounds to `float`: what stood in the model file, where the tracer had to
-/// round it to f32 and the oracle has not.
+/// The shortest decimal that rounds to `float`: what stood in the model file, where the tracer had
+/// to round it to f32 and the oracle has not.
 fn figure(float: f32) -> f64 {
     float.to_string().parse().expect("what a number prints as is a number")
 }

@@ -1,18 +1,22 @@
-//! Expected hits without tracing: how often photons from point lights hit every facet, bounce by bounce.
+//! Expected hits without tracing: how often photons from point lights hit every facet, bounce by
+//! bounce.
 //!
-//! A deterministic calculation in f64 from the geometry alone, to judge a photon tracer by. With n1(x) = |cos| V /
-//! (4 pi r^2) the density of first hits per emitted photon, every later hit follows
-//! n_{k+1}(y) = integral over x of P_r(x) n_k(x) cos_x |cos_y| V / (pi r^2) dA, and N_k is the integral of n_k.
+//! A deterministic calculation in f64 from the geometry alone, to judge a photon tracer by. With
+//! n1(x) = |cos| V / (4 pi r^2) the density of first hits per emitted photon, every later hit
+//! follows n_{k+1}(y) = integral over x of P_r(x) n_k(x) cos_x |cos_y| V / (pi r^2) dA, and N_k is
+//! the integral of n_k.
 //!
-//! | hits | method | error |
-//! |---|---|---|
-//! | N1 | closed form: solid angles of the exactly lit pieces | rounding |
-//! | N2 | adaptive cubature of n1 P_r F, F the closed form factor of the exactly visible pieces | refinement |
-//! | N3 | adaptive cubature of n2 P_r F, n2 gathered from the exactly visible lit pieces (full accuracy only) | refinement |
-//! | later, covariance | piecewise linear collocation with exact form factors, on two meshes | a part of their difference |
+//! - N1 is a closed form: solid angles of the exactly lit pieces. Its error is rounding.
+//! - N2 is an adaptive cubature of n1 P_r F. F is the closed form factor of the exactly visible
+//!   pieces. The refinement bounds its error.
+//! - N3 is an adaptive cubature of n2 P_r F at full accuracy. n2 is gathered from the exactly
+//!   visible lit pieces. The refinement bounds its error.
+//! - Later hits and the covariance come from piecewise linear collocation with exact form factors
+//!   on two meshes. Their error is a part of the difference between the meshes.
 //!
-//! Facets block and receive on both sides and scatter to the side of their normal only, with a cosine law. Light comes
-//! from points, equally in all directions. Results do not depend on units, place, or number of threads.
+//! Facets block and receive on both sides and scatter to the side of their normal only, with a
+//! cosine law. Light comes from points, equally in all directions. Results do not depend on units,
+//! place, or number of threads.
 
 mod bounces;
 mod cuts;
@@ -45,8 +49,9 @@ pub struct Facet {
     pub surface: usize,
     /// Corners in order, either way round, in any unit. Projected onto their mean plane.
     pub vertices: Vec<DVec3>,
-    /// Any vector on the side photons are scattered to. Its length and exact direction do not matter: the lobe stands on
-    /// the plane. If zero, the side about which the corners run counterclockwise.
+    /// Any vector on the side photons are scattered to. Its length and exact direction do not
+    /// matter: the lobe stands on the plane. If zero, the side about which the corners run
+    /// counterclockwise.
     pub normal: DVec3,
     /// P_r, the chance that a hit is scattered; brought into [0, 1].
     pub survival: f64,
@@ -63,15 +68,16 @@ pub struct Emitter {
 
 /// How much work to spend.
 ///
-/// Time grows a little faster than the square of the number of facets: each of the facets is looked at from points on
-/// every other, past those that may stand between. Up to 40 facets are cut along each other's planes; scenes of more get
-/// coarser meshes for their size, and larger errors: about 5 % of the hits after the third for a hundred facets, of their own
-/// order for three hundred. Judge by the errors given.
+/// Time grows a little faster than the square of the number of facets: each of the facets is looked
+/// at from points on every other, past those that may stand between. Up to 40 facets are cut along
+/// each other's planes; scenes of more get coarser meshes for their size, and larger errors: about
+/// 5 % of the hits after the third for a hundred facets, of their own order for three hundred.
+/// Judge by the errors given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
     /// About a second for a dozen facets, bounds about 1e-3 of the stored hits.
     Quick,
-    /// About two minutes of processor time and 1.6 GB for a dozen facets; bounds about 3e-10 on second hits, 3e-8 on third
-    /// and 3e-6 on all later ones.
+    /// About two minutes of processor time and 1.6 GB for a dozen facets; bounds about 3e-10 on
+    /// second hits, 3e-8 on third and 3e-6 on all later ones.
     Full,
 }

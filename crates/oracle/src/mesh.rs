@@ -1,4 +1,5 @@
-//! Triangles that tile the facets, cut where the view changes abruptly, for functions that are linear on each.
+//! Triangles that tile the facets, cut where the view changes abruptly, for functions that are
+//! linear on each.
 
 use super::cuts::{cutting_planes, strips};
 use super::direct::kernel;
@@ -8,7 +9,8 @@ use super::solid_angle::form_factor;
 use super::triangle_rules::Rule;
 use glam::DVec3;
 
-/// The nodes of a cell in barycentric coordinates: a rule exact to degree 2 with weights of a third (Strang and Fix).
+/// The nodes of a cell in barycentric coordinates: a rule exact to degree 2 with weights of a third
+/// (Strang and Fix).
 const NODES: [[f64; 3]; 3] = [
     [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
     [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
@@ -41,9 +43,10 @@ pub struct Mesh {
 impl Mesh {
     /// Cells with edges no longer than `longest` scene units.
     ///
-    /// `widths` asks for cells that end where the plane of another facet meets theirs. Across such a line the other facet
-    /// comes into view and the density has a kink, or a jump if the facets touch there. Along edges where facets that
-    /// see each other touch, strips are cut off, `widths` times `longest` wide: there the density varies as d log d with
+    /// `widths` asks for cells that end where the plane of another facet meets theirs. Across such
+    /// a line the other facet comes into view and the density has a kink, or a jump if the
+    /// facets touch there. Along edges where facets that see each other touch, strips are cut
+    /// off, `widths` times `longest` wide: there the density varies as d log d with
     /// the distance d.
     pub fn new(scene: &Scene, longest: f64, widths: Option<&'static [f64]>) -> Self {
         let mut mesh = Self { cells: Vec::new(), trees: Vec::new(), widths };
@@ -139,7 +142,8 @@ impl Mesh {
             return self.add(plate, normal, triangle);
         }
         let [left, right] = bisect(&triangle);
-        // The cut runs from the middle of the longest edge to the corner across, the left half on its left.
+        // The cut runs from the middle of the longest edge to the corner across, the left half on
+        // its left.
         let across = triangle[(edge + 2) % 3] - left[1];
         match normal.cross(across).try_normalize() {
             Some(inward) => {
@@ -168,8 +172,9 @@ impl Mesh {
         Branch::Cell(self.cells.len() - 1)
     }
 
-    /// Adds to `row` the weights w with which a function, linear on each cell, enters its mean over what `seen`, a
-    /// piece of plate `target`, fills of the cosine lobe of `eye`: integral of f cos cos / (pi r^2) = sum of w f(node).
+    /// Adds to `row` the weights w with which a function, linear on each cell, enters its mean over
+    /// what `seen`, a piece of plate `target`, fills of the cosine lobe of `eye`: integral of f
+    /// cos cos / (pi r^2) = sum of w f(node).
     ///
     /// Exact if the function is constant; else the mean position in each cell is a quadrature.
     pub fn gather(&self, scene: &Scene, view: &View, target: usize, seen: Polygon, row: &mut Row) {

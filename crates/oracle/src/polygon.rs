@@ -1,13 +1,15 @@
 //! Convex polygons in space: planes, cutting, area.
 //!
-//! All lengths are in scene units, where the scene's larger half extent is 1 (see [`super::scene`]).
+//! All lengths are in scene units, where the scene's larger half extent is 1 (see
+//! [`super::scene`]).
 
 use glam::DVec3;
 
 /// Corners of a convex planar polygon, in order.
 pub type Polygon = Vec<DVec3>;
 
-/// Corners nearer than this to a cutting plane count as on it, so that cuts along shared edges leave no slivers.
+/// Corners nearer than this to a cutting plane count as on it, so that cuts along shared edges
+/// leave no slivers.
 pub const ON_PLANE: f64 = 1e-13;
 
 /// An oriented plane: points with `normal . p = offset`.
@@ -81,7 +83,8 @@ pub fn range(polygon: &[DVec3], plane: &Plane) -> (f64, f64) {
     })
 }
 
-/// Replaces each of `pieces` by what lies outside the convex region `inside every plane`, as convex pieces.
+/// Replaces each of `pieces` by what lies outside the convex region `inside every plane`, as convex
+/// pieces.
 pub fn subtract(pieces: &mut Vec<Polygon>, planes: &[Plane]) {
     if pieces.iter().all(|piece| is_outside(piece, planes)) {
         return;
@@ -127,7 +130,8 @@ pub fn edges(polygon: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
     (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]))
 }
 
-/// Twice the area times the normal (Newell 1972), from corners taken relative to the first to spare digits.
+/// Twice the area times the normal (Newell 1972), from corners taken relative to the first to spare
+/// digits.
 pub fn area_vector(polygon: &[DVec3]) -> DVec3 {
     let Some(&first) = polygon.first() else {
         return DVec3::ZERO;
@@ -140,10 +144,12 @@ pub fn fan(polygon: &[DVec3]) -> impl Iterator<Item = [DVec3; 3]> + '_ {
     (1..polygon.len().saturating_sub(1)).map(|i| [polygon[0], polygon[i], polygon[i + 1]])
 }
 
-/// Edges that differ by less than this part count as equally long, so that rounding does not decide how to cut.
+/// Edges that differ by less than this part count as equally long, so that rounding does not decide
+/// how to cut.
 const SAME_LENGTH: f64 = 1e-8;
 
-/// Index of the longest edge of a triangle (edge i runs from corner i to corner i + 1), and its length squared.
+/// Index of the longest edge of a triangle (edge i runs from corner i to corner i + 1), and its
+/// length squared.
 pub fn longest_edge(triangle: &[DVec3; 3]) -> (usize, f64) {
     let lengths = [0, 1, 2].map(|i| (triangle[(i + 1) % 3] - triangle[i]).length_squared());
     let longer = |i: usize, best: usize| lengths[i] > lengths[best] * (1.0 + SAME_LENGTH);

@@ -1,16 +1,17 @@
-//! The scene as the oracle sees it: facets brought to unit size, planes turned to the scattering side, and for every
-//! pair of facets the short list of others that can stand between them.
+//! The scene as the oracle sees it: facets brought to unit size, planes turned to the scattering
+//! side, and for every pair of facets the short list of others that can stand between them.
 
 use super::polygon::{Plane, Polygon, area_vector, keep, range, side_planes, subtract};
 use super::{Emitter, Facet};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Nearer than this to a plane counts as in it. Larger than the rounding of a unit-size scene moved 1e5 away.
+/// Nearer than this to a plane counts as in it. Larger than the rounding of a unit-size scene moved
+/// 1e5 away.
 pub const IN_PLANE: f64 = 1e-9;
 
-/// So far facets are moved apart that lie in one another and look opposite ways. Each is met from its front alone then,
-/// as in the tracer.
+/// So far facets are moved apart that lie in one another and look opposite ways. Each is met from
+/// its front alone then, as in the tracer.
 pub const GAP: f64 = 1e-7;
 
 /// A usable facet.
@@ -44,15 +45,16 @@ pub struct Scene {
     pub emitters: Vec<(DVec3, f64)>,
     /// Whether facets were moved by [`GAP`].
     pub is_parted: bool,
-    /// Least and greatest distance of the corners of plate `b` from the plane of plate `a`, at `a * n + b`.
+    /// Least and greatest distance of the corners of plate `b` from the plane of plate `a`, at `a
+    /// * n + b`.
     ranges: Vec<(f64, f64)>,
     /// Possible occluders, at `(a * 2 + side) * n + target`.
     between: Vec<Vec<u32>>,
 }
 
 impl Scene {
-    /// Facets with a coordinate that is not finite or without area are left out, as are emitters that are not finite
-    /// or have no share.
+    /// Facets with a coordinate that is not finite or without area are left out, as are emitters
+    /// that are not finite or have no share.
     pub fn new(facets: &[Facet], emitters: &[Emitter]) -> Self {
         let (centre, unit) = frame(facets);
         let to_scene = |point: DVec3| (point - centre) / unit;
@@ -80,8 +82,8 @@ impl Scene {
         scene
     }
 
-    /// How far off, or how large, is the smallest thing near `triangle` of plate `own`: another facet, or a light.
-    /// Densities on the triangle vary over such lengths.
+    /// How far off, or how large, is the smallest thing near `triangle` of plate `own`: another
+    /// facet, or a light. Densities on the triangle vary over such lengths.
     pub fn detail_near(&self, own: usize, triangle: &[DVec3; 3]) -> f64 {
         let middle = triangle.iter().sum::<DVec3>() / 3.0;
         let radius = triangle.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
@@ -93,7 +95,8 @@ impl Scene {
         plates.chain(lights).map(distance).fold(f64::INFINITY, f64::min)
     }
 
-    /// Where two coplanar facets overlap, the earlier one takes the photons, so that duplicates count once.
+    /// Where two coplanar facets overlap, the earlier one takes the photons, so that duplicates
+    /// count once.
     fn drop_covered_parts(&mut self) {
         for b in 1..self.plates.len() {
             for a in 0..b {
@@ -106,7 +109,8 @@ impl Scene {
         }
     }
 
-    /// Nearest to the target first: a facet on the far side of a closed body is soon found hidden by the near side.
+    /// Nearest to the target first: a facet on the far side of a closed body is soon found hidden
+    /// by the near side.
     fn list_occluders(&mut self) {
         let count = self.plates.len();
         let lists = (0..count * 2 * count).into_par_iter().map(|index| {
@@ -126,8 +130,8 @@ impl Scene {
         self.between = lists.collect();
     }
 
-    /// Whether a plane parallel to the line between the middles of `a` and `target` has both on one side and `o` on the
-    /// other.
+    /// Whether a plane parallel to the line between the middles of `a` and `target` has both on one
+    /// side and `o` on the other.
     fn passes_by(&self, a: usize, target: usize, o: usize) -> bool {
         let [a, target, o] = [a, target, o].map(|plate| &self.plates[plate]);
         let along = target.centre - a.centre;
@@ -143,7 +147,8 @@ impl Scene {
         o.corners.iter().all(|&p| axis.dot(p) > beam + IN_PLANE)
     }
 
-    /// False only when `o` cannot meet a segment from plate `a`, leaving on `side`, to plate `target`.
+    /// False only when `o` cannot meet a segment from plate `a`, leaving on `side`, to plate
+    /// `target`.
     fn may_block(&self, a: usize, side: Side, target: usize, o: usize) -> bool {
         let beyond = |(lowest, highest): (f64, f64), side| match side {
             Side::Front => highest > IN_PLANE,
@@ -173,7 +178,8 @@ impl Scene {
         self.ranges[reference * self.plates.len() + plate]
     }
 
-    /// Plates that may stand between a point of plate `a`, looking out on `side`, and plate `target`.
+    /// Plates that may stand between a point of plate `a`, looking out on `side`, and plate
+    /// `target`.
     pub fn occluders(&self, a: usize, side: Side, target: usize) -> &[u32] {
         &self.between[(a * 2 + usize::from(side == Side::Back)) * self.plates.len() + target]
     }
@@ -254,7 +260,8 @@ fn is_usable(facet: &Facet) -> bool {
     reach.is_finite() && area_vector(&unit_sized).length() > LEAST_AREA
 }
 
-/// Twice the area over the length squared; a sliver thinner than this has no direction left in its normal.
+/// Twice the area over the length squared; a sliver thinner than this has no direction left in its
+/// normal.
 const LEAST_AREA: f64 = 1e-10;
 
 fn plate(index: usize, facet: &Facet, to_scene: impl Fn(DVec3) -> DVec3) -> Option<Plate> {

@@ -19,11 +19,11 @@ pub fn solid_angle(polygon: &[DVec3], eye: DVec3) -> f64 {
         .sum()
 }
 
-/// Form factor from the surface point `eye` with unit normal `normal` to a convex polygon that lies wholly above
-/// the point's horizon: the chance that a cosine-distributed ray meets it. In [0, 1].
+/// Form factor from the surface point `eye` with unit normal `normal` to a convex polygon that lies
+/// wholly above the point's horizon: the chance that a cosine-distributed ray meets it. In [0, 1].
 ///
-/// Lambert (1760): F = 1/(2 pi) sum of g_i (n . G_i), g_i the angle an edge subtends, G_i the unit normal of the
-/// plane through edge and eye.
+/// Lambert (1760): F = 1/(2 pi) sum of g_i (n . G_i), g_i the angle an edge subtends, G_i the unit
+/// normal of the plane through edge and eye.
 pub fn form_factor(polygon: &[DVec3], eye: DVec3, normal: DVec3) -> f64 {
     let sum: f64 = edges(polygon)
         .map(|(a, b)| {
@@ -52,7 +52,8 @@ mod tests {
         assert!((angle - 4.0 * PI / 6.0).abs() < 1e-14);
     }
 
-    /// Howell's catalogue, C-11 quadrupled: square of half side 1 at distance 1 gives 4/pi * atan(1/sqrt 2)/sqrt 2.
+    /// Howell's catalogue, C-11 quadrupled: square of half side 1 at distance 1 gives 4/pi *
+    /// atan(1/sqrt 2)/sqrt 2.
     #[test]
     fn a_square_overhead_has_the_catalogued_form_factor() {
         let expected = 4.0 / PI * (0.5f64.sqrt()).atan() * 0.5f64.sqrt();

@@ -17,8 +17,8 @@ use glam::DVec3;
 const ROUNDING: f64 = 1e-14;
 /// Hits of one path that are followed at most, should nothing absorb them: the handout's limit.
 const MOST_BOUNCES: usize = 1001;
-/// Scenes of more facets are not cut along every facet's plane, as the cuts would outnumber the cells, and integrated
-/// with fewer points.
+/// Scenes of more facets are not cut along every facet's plane, as the cuts would outnumber the
+/// cells, and integrated with fewer points.
 const MOST_FACETS_FOR_CUTS: usize = 40;
 
 /// A detail is small when it is smaller than this, in scene units. The handout has none.
@@ -109,7 +109,8 @@ impl Settings {
                 third_evaluations: 0,
                 cells: [300, 1000],
                 strips: &[0.4, 0.1],
-                // Coarse meshes err as they like: as usual where only two are compared (Roache 1994).
+                // Coarse meshes err as they like: as usual where only two are compared (Roache
+                // 1994).
                 safety: 3.0,
                 gather_order: 3,
                 gather_ratio: 1.0,
@@ -121,8 +122,8 @@ impl Settings {
                 third_evaluations: 300_000,
                 cells: [3000, 9000],
                 strips: &[0.5, 0.15, 0.04],
-                // As usual where the order is known. A third as many cells of both err by less than nine tenths of
-                // this, held against these.
+                // As usual where the order is known. A third as many cells of both err by less than
+                // nine tenths of this, held against these.
                 safety: 1.25,
                 gather_order: 5,
                 gather_ratio: 1.0,
@@ -141,8 +142,8 @@ fn empty_hits(facet: &Facet, bounces: usize) -> FacetHits {
     }
 }
 
-/// `triangle` of `plate` in parts small enough that none can hide the narrow peak that a small thing nearby makes.
-/// Where all things are about as large as the scene, it stays whole.
+/// `triangle` of `plate` in parts small enough that none can hide the narrow peak that a small
+/// thing nearby makes. Where all things are about as large as the scene, it stays whole.
 fn halved(scene: &Scene, plate: usize, triangle: [DVec3; 3]) -> Vec<[DVec3; 3]> {
     let detail = scene.detail_near(plate, &triangle);
     let (_, length_squared) = longest_edge(&triangle);
@@ -152,7 +153,8 @@ fn halved(scene: &Scene, plate: usize, triangle: [DVec3; 3]) -> Vec<[DVec3; 3]> 
     bisect(&triangle).into_iter().flat_map(|half| halved(scene, plate, half)).collect()
 }
 
-/// N2: the lit pieces, cut where a facet comes into view, are integrated with the chance to reach each facet.
+/// N2: the lit pieces, cut where a facet comes into view, are integrated with the chance to reach
+/// each facet.
 fn second_hits(scene: &Scene, direct: &Direct, settings: &Settings, cuts: bool) -> Integral {
     let mut triangles = Vec::new();
     for (index, piece) in direct.pieces.iter().enumerate() {
@@ -226,7 +228,8 @@ fn reached_from(scene: &Scene, plate: usize, point: DVec3, density: f64) -> Vec<
 fn mesh_of(scene: &Scene, most: usize, widths: Option<&'static [f64]>) -> Mesh {
     let area: f64 =
         scene.plates.iter().map(|plate| 0.5 * area_vector(&plate.corners).length()).sum();
-    // No triangle has more area than a quarter of its longest edge squared if it comes from halving a square.
+    // No triangle has more area than a quarter of its longest edge squared if it comes from halving
+    // a square.
     let least = (4.0 * area / most as f64).sqrt();
     for widths in [widths, None] {
         let mut longest = least;
@@ -244,18 +247,19 @@ fn mesh_of(scene: &Scene, most: usize, widths: Option<&'static [f64]>) -> Mesh {
 /// Bounces of which the relative differences are compared: later ones are alike.
 const BOUNCES_COMPARED: usize = 6;
 
-/// Which part of the difference between two meshes is a bound on the error of the finer one, which has `refinement`
-/// times as many cells: functions that are linear on each cell err as the cells' area, or less (Richardson 1911). `safety`
-/// times that, but no more than all of it.
+/// Which part of the difference between two meshes is a bound on the error of the finer one, which
+/// has `refinement` times as many cells: functions that are linear on each cell err as the cells'
+/// area, or less (Richardson 1911). `safety` times that, but no more than all of it.
 fn left_over(refinement: f64, safety: f64) -> f64 {
     (safety / (refinement - 1.0).max(f64::MIN_POSITIVE)).min(1.0)
 }
 
 /// Adds the errors of the bounces that the meshes have followed.
 ///
-/// How the two meshes differ on a facet at one bounce may be small by chance, where the difference changes its sign from
-/// bounce to bounce. So each facet's largest relative difference counts at all of its bounces, and a quarter of the
-/// usual one besides; of that, `left_over` is the finer mesh's.
+/// How the two meshes differ on a facet at one bounce may be small by chance, where the difference
+/// changes its sign from bounce to bounce. So each facet's largest relative difference counts at
+/// all of its bounces, and a quarter of the usual one besides; of that, `left_over` is the finer
+/// mesh's.
 fn add_differences(errors: &mut Vec<Vec<f64>>, coarse: &Bounces, fine: &Bounces, left_over: f64) {
     let followed = errors.len()..fine.hits.len();
     let before =
@@ -281,7 +285,8 @@ fn add_differences(errors: &mut Vec<Vec<f64>>, coarse: &Bounces, fine: &Bounces,
     }
 }
 
-/// Covariance of the stored hits: E[S_a S_b] counts every ordered pair of two hits of a path, and each hit with itself.
+/// Covariance of the stored hits: E[S_a S_b] counts every ordered pair of two hits of a path, and
+/// each hit with itself.
 fn covariance(result: &Expectation, coarse: &Bounces, fine: &Bounces) -> Vec<Vec<Bounded>> {
     let stored: Vec<Bounded> =
         result.surfaces.iter().map(|&surface| result.on_surface_from(surface, 2)).collect();
@@ -312,8 +317,9 @@ mod tests {
     use super::*;
     use crate::fixtures::{FLOOR, RIGHT_WALL, SHORT_BOX, TALL_BOX, handout};
 
-    /// N2 the other way round: gathered on the facets it hits, instead of sent from those first hit. What the two share
-    /// is visibility and the closed form factor; points, cuts and the quadrature differ.
+    /// N2 the other way round: gathered on the facets it hits, instead of sent from those first
+    /// hit. What the two share is visibility and the closed form factor; points, cuts and the
+    /// quadrature differ.
     #[test]
     #[ignore = "a minute of processor time"]
     fn second_hits_gathered_are_those_sent() {

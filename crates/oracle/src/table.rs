@@ -63,8 +63,8 @@ impl ExpectedTable {
         Self::of(scene, &ids, &expectation)
     }
 
-    /// The table of the handout's scene, computed beforehand: `photon-mapping expect --json`. A test
-    /// computes it again.
+    /// The table of the handout's scene, computed beforehand: `photon-mapping expect --json`. A
+    /// test computes it again.
     pub fn of_assignment8() -> Self {
         let json = include_str!("assignment8.json");
         serde_json::from_str(json).expect("the table that is part of the program is well formed")

@@ -1,7 +1,7 @@
 //! The oracle against what is known.
 //!
-//! The handout's figures come from an independent calculation, checked by Monte Carlo (but for the last digit of N2 on the
-//! tall box, see `solve.rs`); the covariances from 1e8 paths
+//! The handout's figures come from an independent calculation, checked by Monte Carlo (but for the
+//! last digit of N2 on the tall box, see `solve.rs`); the covariances from 1e8 paths
 //! of an independent tracer, with a standard error of about 7e-6.
 
 use super::fixtures::{FLOOR, RIGHT_WALL, SHORT_BOX, TALL_BOX, cube, facet, handout};
@@ -89,7 +89,8 @@ fn a_cube_shares_its_hits_evenly_in_a_geometric_series() {
         }
     }
     check("all hits", result.total_from(1), 2.5, 1e-12);
-    // The number of hits of a path is geometric: variance P / (1 - P)^2, and not storing the first changes nothing.
+    // The number of hits of a path is geometric: variance P / (1 - P)^2, and not storing the first
+    // changes nothing.
     check("variance", result.variance(), 0.6 / 0.16, 1e-9);
 }
 

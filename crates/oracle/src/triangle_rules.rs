@@ -1,4 +1,5 @@
-//! Quadrature over triangles: two fixed rules, graded subdivision towards a near point, and adaptive cubature.
+//! Quadrature over triangles: two fixed rules, graded subdivision towards a near point, and
+//! adaptive cubature.
 
 use super::polygon::{bisect, fan, longest_edge};
 use glam::DVec3;
@@ -31,8 +32,8 @@ impl Rule {
         Self { points: points.map(|point| (point, 1.0 / 3.0)).to_vec() }
     }
 
-    /// Product of two Gauss-Legendre rules of `order` points, the square folded onto the triangle (Duffy 1982); exact
-    /// to degree 2 `order` - 2.
+    /// Product of two Gauss-Legendre rules of `order` points, the square folded onto the triangle
+    /// (Duffy 1982); exact to degree 2 `order` - 2.
     pub fn folded(order: usize) -> Self {
         let line = gauss_legendre(order);
         let mut points = Vec::with_capacity(order * order);
@@ -51,8 +52,8 @@ impl Rule {
         self.points.iter().map(move |&([x, y, z], weight)| (a * x + b * y + c * z, weight * area))
     }
 
-    /// Visits the rule's points on triangles that tile `polygon`, each no longer than `ratio` times its distance from
-    /// every one of `poles`, points where the integrand may be steep.
+    /// Visits the rule's points on triangles that tile `polygon`, each no longer than `ratio` times
+    /// its distance from every one of `poles`, points where the integrand may be steep.
     pub fn graded(
         &self,
         polygon: &[DVec3],
@@ -91,7 +92,8 @@ impl Rule {
 /// Enough halvings to shrink a triangle to the tolerance that points are told apart with.
 const MAX_DEPTH: u32 = 60;
 
-/// Gauss-Legendre nodes and weights on [0, 1], by Newton's method on the recurrence (Press et al., gauleg).
+/// Gauss-Legendre nodes and weights on [0, 1], by Newton's method on the recurrence (Press et al.,
+/// gauleg).
 fn gauss_legendre(order: usize) -> Vec<(f64, f64)> {
     let n = order as f64;
     (0..order)
@@ -132,13 +134,14 @@ struct Element {
 
 /// Integrates a vector of `count` functions over tagged triangles.
 ///
-/// Each triangle is compared with its four quarters; while the errors sum to more than `tolerance`, the triangles that
-/// cause most of it are replaced by their quarters. Values are the quarters' sums. Their errors are taken as the whole
-/// difference from their parent: it is a third where the integrand has a kink or jumps at a point, as four quarters err
-/// a fourth of the whole, and far less where it is smooth. More than that would be cautious, were it not for narrow
-/// features between the points, which parent and quarters miss alike: in the handout's scene they bring the sum of all
-/// such errors, taken without regard to sign, down to about the error that is left. Ends early, with a larger error,
-/// after `most` evaluations.
+/// Each triangle is compared with its four quarters; while the errors sum to more than `tolerance`,
+/// the triangles that cause most of it are replaced by their quarters. Values are the quarters'
+/// sums. Their errors are taken as the whole difference from their parent: it is a third where the
+/// integrand has a kink or jumps at a point, as four quarters err a fourth of the whole, and far
+/// less where it is smooth. More than that would be cautious, were it not for narrow
+/// features between the points, which parent and quarters miss alike: in the handout's scene they
+/// bring the sum of all such errors, taken without regard to sign, down to about the error that is
+/// left. Ends early, with a larger error, after `most` evaluations.
 pub fn integrate(
     rule: &Rule,
     triangles: Vec<(usize, [DVec3; 3])>,

@@ -49,9 +49,10 @@ fn is_edge_on(scene: &Scene, plate: usize, eye: DVec3) -> bool {
 
 /// Takes from `pieces` of `target` what `occluder` hides from `eye`.
 ///
-/// A point q of the target is hidden if the ray to it meets the occluder before the target's plane. So the occluder is
-/// cut at that plane; the rays through the near part fill a convex cone, bounded by planes through eye and edge. No
-/// projection is needed, and a part behind the eye does no harm: the cone lies on one side of the occluder's plane.
+/// A point q of the target is hidden if the ray to it meets the occluder before the target's plane.
+/// So the occluder is cut at that plane; the rays through the near part fill a convex cone, bounded
+/// by planes through eye and edge. No projection is needed, and a part behind the eye does no harm:
+/// the cone lies on one side of the occluder's plane.
 fn remove_shadow(
     scene: &Scene,
     eye: DVec3,
@@ -87,12 +88,13 @@ fn look_apart(eye: DVec3, a: &Plate, b: &Plate) -> bool {
     if tangent_a <= 0.0 || tangent_b <= 0.0 {
         return false;
     }
-    // cos of the angle between, against cos of the sum of both half angles, over the product of the distances.
+    // cos of the angle between, against cos of the sum of both half angles, over the product of the
+    // distances.
     to_a.dot(to_b) < (tangent_a * tangent_b).sqrt() - a.radius * b.radius - IN_PLANE
 }
 
-/// Planes through `eye` and each edge, normals into the cone. `height` is the eye's distance from the polygon's plane,
-/// about whose normal the corners run counterclockwise.
+/// Planes through `eye` and each edge, normals into the cone. `height` is the eye's distance from
+/// the polygon's plane, about whose normal the corners run counterclockwise.
 fn cone(polygon: &[DVec3], eye: DVec3, height: f64) -> Vec<Plane> {
     edges(polygon)
         .filter_map(|(a, b)| {

@@ -145,11 +145,12 @@ fn markdown(speed: &Speed, curves: &[Curve; 3]) -> String {
     );
     let _ = writeln!(
         text,
-        "Relative error of the stored density against the expectation, as the root of its mean square \
-         over {} seeds at each size; no two runs share a photon. Intervals hold the true value with 95 %: they are \
-         jackknifed over the seeds, so that no law of the errors is assumed. Where a surface or facet expects \
-         fewer than {FEWEST} photons, its error has no interval and no part in a slope. Seconds are means, for tracing on \
-         all cores and counting by facet.\n",
+        "Relative error of the stored density against the expectation, as the root of its mean \
+         square over {} seeds at each size; no two runs share a photon. Intervals hold the true \
+         value with 95 %: they are jackknifed over the seeds, so that no law of the errors is \
+         assumed. Where a surface or facet expects fewer than {FEWEST} photons, its error has no \
+         interval and no part in a slope. Seconds are means, for tracing on all cores and counting \
+         by facet.\n",
         speed.seeds
     );
     let mut table = Table::with_heads([
@@ -199,7 +200,8 @@ fn markdown(speed: &Speed, curves: &[Curve; 3]) -> String {
         let theory = (speed.deviation_of_one() / goal).powi(2);
         let _ = writeln!(
             text,
-            "- To {} % of the stored total: **{} photons**, **{} s** at {} photons/s. 95 %: {} to {} photons; theory: {}.",
+            "- To {} % of the stored total: **{} photons**, **{} s** at {} photons/s. 95 %: {} to \
+             {} photons; theory: {}.",
             100.0 * goal,
             short(photons, 3),
             short(photons / photons_per_second, 3),
@@ -209,10 +211,10 @@ fn markdown(speed: &Speed, curves: &[Curve; 3]) -> String {
             short(theory, 3),
         );
     }
-    text += "\nThe photons to a goal are goal^-2 times the mean over all sizes of (emitted x squared RMS); \
-             the speed is that at the largest size. Theory is the variance of whole paths from \
-             `photon-mapping expect`, in which no photon is traced. Data: \
-             [every run](speed-runs.csv), [by surface and facet](speed.csv), with the spread of the \
+    text += "\nThe photons to a goal are goal^-2 times the mean over all sizes of (emitted x \
+             squared RMS); the speed is that at the largest size. Theory is the variance of whole \
+             paths from `photon-mapping expect`, in which no photon is traced. Data: [every \
+             run](speed-runs.csv), [by surface and facet](speed.csv), with the spread of the \
              absolute error over seeds.\n";
     text
 }

@@ -47,8 +47,8 @@ pub struct Section {
     pub files: Vec<(&'static str, String)>,
 }
 
-/// Measures all that `plan` asks for, and gives the files of the report: names out of [`FILES`], and
-/// what is in them. `progress` is told how many more photons have been traced.
+/// Measures all that `plan` asks for, and gives the files of the report: names out of [`FILES`],
+/// and what is in them. `progress` is told how many more photons have been traced.
 pub fn run(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Vec<(&'static str, String)> {
     let speed = speed_runs::measure(plan, progress);
     let sections = [

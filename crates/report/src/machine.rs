@@ -37,8 +37,8 @@ pub fn section(plan: &Plan) -> Section {
     }
     row("one run again", "`photon-mapping render --seed S --photons N --json`");
     row("what is expected", "`photon-mapping expect --json`");
-    text += "\nCounts and errors repeat to the last digit on any machine. Seconds do not, and other work on the machine \
-             is in them: compare ratios within one report.\n";
+    text += "\nCounts and errors repeat to the last digit on any machine. Seconds do not, and \
+             other work on the machine is in them: compare ratios within one report.\n";
     Section { markdown: text, files: Vec::new() }
 }
 

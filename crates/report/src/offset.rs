@@ -1,4 +1,5 @@
-//! Where a scattered ray starts: what goes wrong with no offset, fixed ones, and the reference's rule.
+//! Where a scattered ray starts: what goes wrong with no offset, fixed ones, and the reference's
+//! rule.
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -151,13 +152,15 @@ fn markdown(plan: &Plan, offsets: &Offsets) -> String {
     );
     let _ = writeln!(
         text,
-        "Per million emitted photons: **self-hits / leaks / lost / extra**. A self-hit is a second hit in a row on \
-         one plane. A leak is a hit from behind, or on the floor inside a box's footprint. Lost and extra are counted \
-         photon by photon against the same random numbers in f64, whose rays start 1e-9 off the unscaled facet: lost is \
-         the first hit of a path that it should have made and did not, extra one that it should not have made, and a \
-         hit on another facet is both. {} photons a case, so that a 0 stands for fewer than {} of a million (95 %, by the \
-         rule of three). Fixed offsets are in units of the scene as it comes, the last rule is what the program does with \
-         a model that it loads. Wrong, in the plot, is the sum of the four.\n",
+        "Per million emitted photons: **self-hits / leaks / lost / extra**. A self-hit is a second \
+         hit in a row on one plane. A leak is a hit from behind, or on the floor inside a box's \
+         footprint. Lost and extra are counted photon by photon against the same random numbers in \
+         f64, whose rays start 1e-9 off the unscaled facet: lost is the first hit of a path that \
+         it should have made and did not, extra one that it should not have made, and a hit on \
+         another facet is both. {} photons a case, so that a 0 stands for fewer than {} of a \
+         million (95 %, by the rule of three). Fixed offsets are in units of the scene as it \
+         comes, the last rule is what the program does with a model that it loads. Wrong, in the \
+         plot, is the sum of the four.\n",
         plan.offset_photons,
         short(most_per_million(plan.offset_photons), 2)
     );
@@ -204,8 +207,9 @@ fn markdown(plan: &Plan, offsets: &Offsets) -> String {
         short(worst, 3),
         if worst == 0.0 { ", none seen in any" } else { "" }
     );
-    text += "- A moved scene that is traced as it comes also has its corners rounded to f32, up to 4e-3 at 1e5: part \
-             of what is lost there is lost to that.\n- Times include the judging.\n\nData: [all cases](offset.csv).\n";
+    text += "- A moved scene that is traced as it comes also has its corners rounded to f32, up to \
+             4e-3 at 1e5: part of what is lost there is lost to that.\n- Times include the \
+             judging.\n\nData: [all cases](offset.csv).\n";
     text
 }
 
@@ -214,7 +218,8 @@ fn signed_percent(change: f64) -> String {
     if change == 0.0 { "0 %".to_owned() } else { format!("{:+.2} %", 100.0 * change) }
 }
 
-/// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be seen.
+/// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be
+/// seen.
 fn plot(cases: &[Case]) -> String {
     let shown = [
         (Rule::None, Mark::Circles),
@@ -264,7 +269,8 @@ fn plot(cases: &[Case]) -> String {
 mod tests {
     use super::*;
 
-    /// What the framework's figures say: nothing at 1e-5, half a percent of the stored photons at 1e-2.
+    /// What the framework's figures say: nothing at 1e-5, half a percent of the stored photons at
+    /// 1e-2.
     #[test]
     fn losses_are_counted_photon_by_photon() {
         let photons = 1_000_000;

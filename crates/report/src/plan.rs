@@ -55,8 +55,8 @@ impl Plan {
         plan
     }
 
-    /// The seed of run `run` at size number `size`: no two runs share a photon, so that their errors
-    /// are independent.
+    /// The seed of run `run` at size number `size`: no two runs share a photon, so that their
+    /// errors are independent.
     pub fn seed(size: usize, run: u64) -> u64 {
         1_000 * (size as u64 + 1) + run
     }

@@ -131,9 +131,10 @@ pub fn section(precision: &Precision) -> Section {
         String::from("## 2. Precision\n\n![Distance between f32 and f64](precision.svg)\n\n");
     let _ = writeln!(
         text,
-        "{} photons with the random numbers of seed {}, each in f32 and in f64, by one piece of code written \
-         for both types; in f32 it is the reference, bit for bit. Distances between the points hit, in scene \
-         units (the box is 2 wide), as long as both paths decide alike:\n",
+        "{} photons with the random numbers of seed {}, each in f32 and in f64, by one piece of \
+         code written for both types; in f32 it is the reference, bit for bit. Distances between \
+         the points hit, in scene units (the box is 2 wide), as long as both paths decide \
+         alike:\n",
         precision.photons,
         assignment8::SEED
     );
@@ -153,8 +154,9 @@ pub fn section(precision: &Precision) -> Section {
     let per_million = other as f64 * 1e6 / precision.photons as f64;
     let _ = writeln!(
         text,
-        "\n- **{} of a million paths decide otherwise**: {} in all, {} accept another try of the emission, {} hit \
-         another facet, {} hit where the other escapes. The roulette cannot differ: both compare the same numbers.{}",
+        "\n- **{} of a million paths decide otherwise**: {} in all, {} accept another try of the \
+         emission, {} hit another facet, {} hit where the other escapes. The roulette cannot \
+         differ: both compare the same numbers.{}",
         short(per_million, 3),
         other,
         precision.emission,
@@ -169,15 +171,16 @@ pub fn section(precision: &Precision) -> Section {
     );
     let _ = writeln!(
         text,
-        "- **f64 takes {} times as long** as f32 in this code: {} against {} ns a photon, on all cores, the \
-         fastest of {ROUNDS} rounds. Neither half is vectorised by hand; the path behind `render` may be \
-         faster than both, and wide f64 lanes would be half as many.",
+        "- **f64 takes {} times as long** as f32 in this code: {} against {} ns a photon, on all \
+         cores, the fastest of {ROUNDS} rounds. Neither half is vectorised by hand; the path \
+         behind `render` may be faster than both, and wide f64 lanes would be half as many.",
         short(ratio, 3),
         short(precision.double_time, 3),
         short(precision.single_time, 3)
     );
     let mut summary = Table::new(
-        "photons other_decision emission other_facet hit_or_escape f32_nanoseconds f64_nanoseconds time_ratio",
+        "photons other_decision emission other_facet hit_or_escape f32_nanoseconds f64_nanoseconds \
+         time_ratio",
     );
     let counts = [
         precision.photons,

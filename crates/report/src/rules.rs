@@ -1,4 +1,5 @@
-//! The rules for where a scattered ray starts that the report holds side by side, and in which places.
+//! The rules for where a scattered ray starts that the report holds side by side, and in which
+//! places.
 
 use super::transform::Place;
 

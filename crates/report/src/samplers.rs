@@ -131,8 +131,9 @@ fn markdown(samplers: &Samplers) -> String {
     let time_ratio = sobol_time / chacha_time;
     let _ = writeln!(
         text,
-        "RMS relative error of all hits in the scene, over {} seeds, at {largest} emitted photons (sizes are powers of \
-         two, where a Sobol sequence is a net). Intervals (95 %) and the cells left out of slopes are as in section 1.\n",
+        "RMS relative error of all hits in the scene, over {} seeds, at {largest} emitted photons \
+         (sizes are powers of two, where a Sobol sequence is a net). Intervals (95 %) and the \
+         cells left out of slopes are as in section 1.\n",
         samplers.seeds
     );
     let mut table = Table::with_heads([
@@ -171,18 +172,19 @@ fn markdown(samplers: &Samplers) -> String {
     text += &table.markdown();
     let _ = writeln!(
         text,
-        "\n- Time: {} s with ChaCha, {} s with Sobol, a ratio of **{}**; both through the straight-line tracer on \
-         all cores.",
+        "\n- Time: {} s with ChaCha, {} s with Sobol, a ratio of **{}**; both through the \
+         straight-line tracer on all cores.",
         short(chacha_time, 3),
         short(sobol_time, 3),
         short(time_ratio, 3)
     );
-    text += "- Limits of this Sobol sequence: 2^32 photons; numbers of 24 bits, as the reference's, so that past 2^24 \
-             photons a single dimension is not stratified further; emission and two bounces share one point of eight \
-             dimensions, every later bounce has a sequence of its own, independent of the others, where little is \
-             gained. Its photons are not independent, so a summary gives no z.\n\
-             - Again: `photon-mapping render --sampler sobol --seed S --photons N`.\n\n\
-             Data: [every run](sampler-runs.csv), [errors](sampler.csv).\n";
+    text += "- Limits of this Sobol sequence: 2^32 photons; numbers of 24 bits, as the \
+             reference's, so that past 2^24 photons a single dimension is not stratified further; \
+             emission and two bounces share one point of eight dimensions, every later bounce has \
+             a sequence of its own, independent of the others, where little is gained. Its photons \
+             are not independent, so a summary gives no z.\n - Again: `photon-mapping render \
+             --sampler sobol --seed S --photons N`.\n\n Data: [every run](sampler-runs.csv), \
+             [errors](sampler.csv).\n";
     text
 }
 

@@ -1,7 +1,7 @@
 //! The few formulas of the report. All means are over independent runs.
 
-/// Fewer photons than this expected in a cell, and its error is no normal one: a few photons more or
-/// less decide it. Such cells have no interval and no part in a slope.
+/// Fewer photons than this expected in a cell, and its error is no normal one: a few photons more
+/// or less decide it. Such cells have no interval and no part in a slope.
 pub const FEWEST: f64 = 20.0;
 
 /// The squared relative errors of one run: one for each cell, of which all runs have the same.
@@ -29,8 +29,8 @@ impl Estimate {
     }
 }
 
-/// `statistic` of `groups` of runs, with its interval by Tukey's jackknife (1958): each run in turn is
-/// left out, and what that changes says how far the statistic is off and how far it scatters. No
+/// `statistic` of `groups` of runs, with its interval by Tukey's jackknife (1958): each run in turn
+/// is left out, and what that changes says how far the statistic is off and how far it scatters. No
 /// law of the errors is assumed, and what the cells of one run have in common is in it.
 pub fn jackknife(groups: &[Runs], statistic: impl Fn(&[Runs]) -> f64) -> Estimate {
     let value = statistic(groups);
@@ -68,8 +68,8 @@ pub fn variance_ratio(above: &Runs, below: &Runs) -> Estimate {
     jackknife(&groups, |groups| 2.0 * (log_rms(&groups[0]) - log_rms(&groups[1]))).map(f64::exp)
 }
 
-/// The variance that one photon alone would have, when it falls as one over the `sizes` of the groups:
-/// the mean over the groups.
+/// The variance that one photon alone would have, when it falls as one over the `sizes` of the
+/// groups: the mean over the groups.
 pub fn variance_of_one(sizes: &[u64], groups: &[Runs]) -> Estimate {
     let of_one = |groups: &[Runs]| {
         let squares =
@@ -81,7 +81,8 @@ pub fn variance_of_one(sizes: &[u64], groups: &[Runs]) -> Estimate {
 
 /// The slope of the logarithm of the RMS over that of `sizes`, by least squares: one slope for all
 /// cells, a height for each, so that a cell may be missing at some sizes. `expected` is how many
-/// photons each cell expects for one that is emitted. None where no cell expects enough at two sizes.
+/// photons each cell expects for one that is emitted. None where no cell expects enough at two
+/// sizes.
 pub fn log_log_slope(sizes: &[u64], groups: &[Runs], expected: &[f64]) -> Option<Estimate> {
     let kept = |cell: usize| -> Vec<usize> {
         let is_enough = |size: &usize| sizes[*size] as f64 * expected[cell] >= FEWEST;
@@ -111,8 +112,8 @@ fn log_rms(runs: &[Squares]) -> f64 {
     0.5 * (runs.iter().flatten().sum::<f64>() / cells as f64).ln()
 }
 
-/// The largest number of events in a million tries that none in `tries` leaves likely (95 %): the rule
-/// of three.
+/// The largest number of events in a million tries that none in `tries` leaves likely (95 %): the
+/// rule of three.
 pub fn most_per_million(tries: u64) -> f64 {
     3e6 / tries as f64
 }
@@ -178,7 +179,8 @@ mod tests {
         assert_eq!(quantile(&[1.0], 0.99), 1.0);
     }
 
-    /// What a path stores in the scene of the simulation: one, two, ... photons, with these chances.
+    /// What a path stores in the scene of the simulation: one, two, ... photons, with these
+    /// chances.
     const STORED: [f64; 3] = [0.022, 0.008, 0.004];
     /// Each of them on one of these cells, with these chances.
     const SHARES: [f64; 4] = [0.45, 0.35, 0.15, 0.05];

@@ -8,8 +8,8 @@ use model::facets::facet_of_triangles;
 use photon_mapping::assignment8;
 use photon_mapping::random::photon_random;
 
-/// How far off a facet f64 starts its rays, in scene units: far above its rounding, and far below what
-/// decides where a photon goes.
+/// How far off a facet f64 starts its rays, in scene units: far above its rounding, and far below
+/// what decides where a photon goes.
 const START: f64 = 1e-9;
 
 /// The facets that each photon hits, one after another, in the handout's scene.
@@ -33,7 +33,8 @@ impl TruePaths {
         self.0.iter().map(|hits| hits.len().saturating_sub(1) as u64).sum()
     }
 
-    /// Where the hits of `photon`, on the facets `found`, part from the true ones; none if they never do.
+    /// Where the hits of `photon`, on the facets `found`, part from the true ones; none if they
+    /// never do.
     pub fn part(&self, photon: u64, found: impl Iterator<Item = usize>) -> Option<Parting> {
         let truth = &self.0[photon as usize];
         let mut found = found.fuse();

@@ -159,7 +159,10 @@ impl Browser {
             "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
         self.run(frame);
         // While the camera moves, a slow machine draws only some of the dots.
-        self.wait_for("!window.page?.view || (page.view.part === 1 && performance.now() - (page.view.moved ?? 0) > 300)");
+        self.wait_for(
+            "!window.page?.view || (page.view.part === 1 && performance.now() - (page.view.moved \
+             ?? 0) > 300)",
+        );
         self.run(frame);
     }
 
@@ -218,8 +221,9 @@ impl Browser {
     /// Clicks the middle of the element `selector`.
     pub fn click_on(&self, selector: &str) {
         let place = self.run(&format!(
-            "(() => {{ const node = document.querySelector({selector:?}); node.scrollIntoView({{ block: 'center' }}); \
-             const r = node.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; }})()"
+            "(() => {{ const node = document.querySelector({selector:?}); node.scrollIntoView({{ \
+             block: 'center' }}); const r = node.getBoundingClientRect(); return [r.x + r.width / \
+             2, r.y + r.height / 2]; }})()"
         ));
         self.click(place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"));
     }

@@ -1,4 +1,5 @@
-//! What rays from anywhere meet: the test of [`photon_mapping::scene::triangle`] with a ray in every lane.
+//! What rays from anywhere meet: the test of [`photon_mapping::scene::triangle`] with a ray in
+//! every lane.
 
 use glam::Vec3;
 use pulp::NullaryFnOnce;
@@ -7,7 +8,8 @@ use photon_mapping::scene::Scene;
 use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
 
-/// How many rays a kernel call follows. What it keeps of two dozen corners fits a first-level cache.
+/// How many rays a kernel call follows. What it keeps of two dozen corners fits a first-level
+/// cache.
 pub const GROUP: usize = 32;
 /// No triangle.
 pub const NONE: u32 = u32::MAX;
@@ -70,8 +72,8 @@ pub struct Hits {
     pub t: Lanes,
     /// The triangles, or [`NONE`].
     pub triangle: [u32; GROUP],
-    /// Not 0 where an edge function that decides was rounded to zero, or where a triangle is within the
-    /// error of the start: see [`Self::settle`].
+    /// Not 0 where an edge function that decides was rounded to zero, or where a triangle is
+    /// within the error of the start: see [`Self::settle`].
     is_doubtful: [u32; GROUP],
     seen: Vec<[Lanes; 3]>,
 }
@@ -238,8 +240,8 @@ impl Rays {
 }
 
 impl Hits {
-    /// Asks [`Scene::trace`] for those of the first `count` rays that are in doubt or came from behind: its
-    /// second looks are rarely needed and not made in lanes.
+    /// Asks [`Scene::trace`] for those of the first `count` rays that are in doubt or came from
+    /// behind: its second looks are rarely needed and not made in lanes.
     pub fn settle(&mut self, scene: &Scene, rays: &Rays, count: usize) {
         for lane in 0..count {
             let triangle = scene.triangles().get(self.triangle[lane] as usize);

@@ -1,9 +1,9 @@
-//! What photons straight from a light meet: the test of [`photon_mapping::scene::triangle`] with photons in
-//! the lanes that all may meet the same triangle.
+//! What photons straight from a light meet: the test of [`photon_mapping::scene::triangle`] with
+//! photons in the lanes that all may meet the same triangle.
 //!
 //! Photons wait in a queue of the triangle until the lanes are full. So a triangle's corners are
-//! loaded once for many photons, and nothing depends on which of two triangles a photon meets, which
-//! no processor could predict.
+//! loaded once for many photons, and nothing depends on which of two triangles a photon meets,
+//! which no processor could predict.
 
 use glam::Vec3;
 use pulp::NullaryFnOnce;
@@ -19,8 +19,8 @@ use photon_mapping::scene::triangle::meet;
 /// How many photons wait before they are tested.
 const LANES: usize = 16;
 
-/// The shears of a photon's direction, and the bits of its place among the photons of the search: all
-/// that waits of it, in one line of the cache.
+/// The shears of a photon's direction, and the bits of its place among the photons of the search:
+/// all that waits of it, in one line of the cache.
 pub type Aimed = [f32; 4];
 
 /// A photon's closest hit so far.

@@ -3,20 +3,20 @@
 //!
 //! A wave of photons takes each step together: `emission` draws their directions in the lanes of
 //! the processor's vectors, `outlook` tells what a photon from a light may meet and `first_hit`
-//! what it meets, [`closest_hit`] what a scattered one meets, `scattering` sends those that survive
-//! the roulette on, and `wave` is the loop around them. [`picture`] sends camera and shadow rays the
-//! same way. [`width`] chooses the vector instructions when the program runs.
+//! what it meets, [`closest_hit`] what a scattered one meets, `scattering` sends those that
+//! survive the roulette on, and `wave` is the loop around them. [`picture`] sends camera and
+//! shadow rays the same way. [`width`] chooses the vector instructions when the program runs.
 //!
-//! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and this
-//! module may only be another order of the same roundings. What can be shared is called, not copied:
-//! the edge functions, the frame of a surface, the offset of a ray, the shares of the lights, and
-//! scalar tracing wherever a lane is in doubt. What must be written again is small, one formula a
-//! file, and each has a test that holds it to the scalar code by bits, exhaustively where there are
-//! few enough inputs. Over all of it, `crates/variants/tests/lanes.rs` traces random scenes, lights, seeds, ranges
-//! and bounces through both paths and every width, and compares records by bits; and the golden hash is
-//! computed both ways. Who changes `trace_photon` sees these tests fail until the
-//! same change is made here. Every run also traces a sample of its photons both ways
-//! ([`crate::trace`]).
+//! **How the two paths are kept from drifting apart.** `trace_photon` is the specification, and
+//! this module may only be another order of the same roundings. What can be shared is called, not
+//! copied: the edge functions, the frame of a surface, the offset of a ray, the shares of the
+//! lights, and scalar tracing wherever a lane is in doubt. What must be written again is small, one
+//! formula a file, and each has a test that holds it to the scalar code by bits, exhaustively where
+//! there are few enough inputs. Over all of it, `crates/variants/tests/lanes.rs` traces random
+//! scenes, lights, seeds, ranges and bounces through both paths and every width, and compares
+//! records by bits; and the golden hash is computed both ways. Who changes `trace_photon` sees
+//! these tests fail until the same change is made here. Every run also traces a sample of its
+//! photons both ways ([`crate::trace`]).
 
 mod chacha;
 pub mod closest_hit;
@@ -47,10 +47,10 @@ use width::Width;
 
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
 ///
-/// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, all triangles in
-/// lanes beside the tree (AVX2, Zen 3; `benches/speed.rs`): 22 and 62 for 24 triangles, 38 and 87 for
-/// 48, 81 and 99 for 96, 98 and 104 for 128, 172 and 155 for 192. Lanes also draw many photons' numbers
-/// at once, which is why they keep the tie.
+/// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, all triangles
+/// in lanes beside the tree (AVX2, Zen 3; `benches/speed.rs`): 22 and 62 for 24 triangles, 38 and
+/// 87 for 48, 81 and 99 for 96, 98 and 104 for 128, 172 and 155 for 192. Lanes also draw many
+/// photons' numbers at once, which is why they keep the tie.
 pub const MOST_TRIANGLES: usize = 128;
 
 /// Traces the photons of one renderer in lanes.
@@ -86,8 +86,8 @@ impl Surface {
 }
 
 impl<'renderer> LaneTracer<'renderer> {
-    /// Prepares `renderer`'s scene for vectors of `width`. `None` when the scene or the run is too large
-    /// for lanes.
+    /// Prepares `renderer`'s scene for vectors of `width`. `None` when the scene or the run is too
+    /// large for lanes.
     pub fn new(renderer: &'renderer PhotonMappingRenderer, width: Width) -> Option<Self> {
         Self::with_frames(renderer, width, tangent_frame, Offset::AsNeeded)
     }

@@ -5,7 +5,8 @@ use glam::Vec3;
 /// Where the scattered ray starts, seen from the point hit. Lengths are in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
-    /// As far along the normal as this hit needs: [`Scene::offset`](photon_mapping::scene::Scene::offset).
+    /// As far along the normal as this hit needs:
+    /// [`Scene::offset`](photon_mapping::scene::Scene::offset).
     AsNeeded,
     /// At the point itself.
     None,
@@ -16,8 +17,9 @@ pub enum Offset {
 }
 
 impl Offset {
-    /// How far off along its ray a start may be where an offset of `needed` is needed. Only the reference
-    /// counts with it; half of the offset, so that the surface left behind is never within it.
+    /// How far off along its ray a start may be where an offset of `needed` is needed. Only the
+    /// reference counts with it; half of the offset, so that the surface left behind is never
+    /// within it.
     pub fn start_error(self, needed: f32) -> f32 {
         match self {
             Self::AsNeeded => 0.5 * needed,

@@ -1,8 +1,9 @@
 //! What a point light can hit in which direction, found out once for all of its photons.
 //!
 //! All photons of a point light start at one point, and three in four of the handout's leave the
-//! scene at once. So the directions are divided into cells, six faces of a cube with a grid on each,
-//! and each cell keeps the triangles that a ray through it *may* meet: often none, mostly one.
+//! scene at once. So the directions are divided into cells, six faces of a cube with a grid on
+//! each, and each cell keeps the triangles that a ray through it *may* meet: often none, mostly
+//! one.
 //!
 //! The bits cannot change, because a triangle is left out of a cell only where the test of
 //! [`photon_mapping::scene::triangle`] is certain to refuse it. That test sees a corner at
@@ -17,12 +18,12 @@
 //! - one edge function is certainly positive and another certainly negative.
 //!
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
-//! photon's direction are 0 or at least 2^-24, so they cannot where each coordinate is 0 or at least
-//! 2^-25; a triangle with smaller ones is in every cell.
+//! photon's direction are 0 or at least 2^-24, so they cannot where each coordinate is 0 or at
+//! least 2^-25; a triangle with smaller ones is in every cell.
 //!
 //! A photon straight from the light is not stored, so one that is absorbed where it hits first need
-//! not be followed there: [`Outlook::may_go_on`] plays its roulette against the most that anything in
-//! its cell reflects. [`super::first_hit`] tests those that remain.
+//! not be followed there: [`Outlook::may_go_on`] plays its roulette against the most that anything
+//! in its cell reflects. [`super::first_hit`] tests those that remain.
 
 use std::ops::Range;
 
@@ -119,8 +120,9 @@ pub fn aim(direction: Vec3) -> (u32, Vec3) {
 /// The cell of a point in the unit sphere for [`Outlook::may_go_on`], before it is normalised.
 ///
 /// Its shears are off by a few roundings, for which a cell has its margin. Its face is that of the
-/// normalised direction: coordinates are drawn as multiples of 2^-23 and only grow by normalising, so
-/// two that differ still differ by more than the 2^-24 to which those of a unit vector are rounded.
+/// normalised direction: coordinates are drawn as multiples of 2^-23 and only grow by normalising,
+/// so two that differ still differ by more than the 2^-24 to which those of a unit vector are
+/// rounded.
 #[inline(always)]
 pub fn rough_cell(direction: Vec3) -> u32 {
     let (face, turned) = turn(direction);
@@ -180,8 +182,8 @@ impl Outlook {
         Self { seen, cells, triangles, reflection }
     }
 
-    /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there when
-    /// its roulette's number is that of `word`.
+    /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there
+    /// when its roulette's number is that of `word`.
     #[inline(always)]
     pub fn may_go_on(&self, cell: u32, word: u32) -> bool {
         // The number is at least this many 128ths.
@@ -217,8 +219,8 @@ struct Face<'a> {
 
 impl Face<'_> {
     /// Gives `found` every cell of the square of `edge` cells from row and column `start` on, with
-    /// those of `triangles` that a ray through it may meet. What a quarter does not meet, none of its
-    /// cells does.
+    /// those of `triangles` that a ray through it may meet. What a quarter does not meet, none of
+    /// its cells does.
     fn divide(
         &self,
         triangles: &[u32],

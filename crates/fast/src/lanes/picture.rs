@@ -22,15 +22,16 @@ const PIXELS_BETWEEN_CHECKS: usize = 101;
 pub struct CheckedPicture {
     /// The picture.
     pub picture: image::RgbImage,
-    /// Column and row of a pixel on which lanes and port differ. The whole picture is then the port's.
+    /// Column and row of a pixel on which lanes and port differ. The whole picture is then the
+    /// port's.
     pub difference: Option<(u32, u32)>,
 }
 
 /// The picture of `width` x `height` pixels that `camera` takes, on all threads, with vectors of
 /// `lanes`. `row_done` is called after every row, on any thread.
 ///
-/// Scenes that are too large for lanes go through the port, and so do all pixels where a sample of the
-/// lanes' pixels differs from the port's.
+/// Scenes that are too large for lanes go through the port, and so do all pixels where a sample of
+/// the lanes' pixels differs from the port's.
 pub fn take_picture(
     renderer: &PhotonMappingRenderer,
     lanes: Width,
@@ -102,7 +103,8 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for each of at most [`GROUP`] rays.
+    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for each of at most [`GROUP`]
+    /// rays.
     fn sample_colors(&mut self, camera_rays: &[Ray]) -> Vec<Vec3> {
         let scene = &self.renderer.stored_scene;
         let states = self.trace(camera_rays);

@@ -6,8 +6,8 @@ use std::f64::consts::FRAC_PI_2;
 ///
 /// The arithmetic of FreeBSD's msun (`s_sinf.c`, `k_sinf.c`, `k_cosf.c`; Sun Microsystems 1993,
 /// converted by Ian Lance Taylor, optimised by Bruce D. Evans), which `libm` is a port of: the
-/// multiple of pi / 2 nearest to the angle is taken off in f64, and one polynomial for each function
-/// is summed in f64. A test compares every angle that a photon can draw.
+/// multiple of pi / 2 nearest to the angle is taken off in f64, and one polynomial for each
+/// function is summed in f64. A test compares every angle that a photon can draw.
 #[inline(always)]
 pub fn sine_and_cosine(angle: f32) -> (f32, f32) {
     let x = f64::from(angle);
