@@ -379,7 +379,8 @@ class Page {
       if (!hidden) shown++;
     }
     this.looks = looks;
-    $("shown").textContent = `${thousands(shown)} photons shown${only ? `: ${only.name}` : ""}.`;
+    $("shown").textContent =
+      `${thousands(shown)} photon${shown === 1 ? "" : "s"} shown${only ? `: ${only.name}` : ""}.`;
     const legend =
       mode === "kind"
         ? KINDS.map((kind) => [KIND_LOOKS[kind], kind])

@@ -40,8 +40,10 @@ uniform mat4 camera; out vec3 at, n, c;
 void main() { at = position; n = normal; c = color; gl_Position = camera * vec4(position, 1); }`;
 const SURFACE_FRAGMENT = `#version 300 es
 precision highp float;
-in vec3 at, n, c; uniform vec3 light, air; uniform float alpha, wash; out vec4 o;
+in vec3 at, n, c; uniform vec3 light, air, eye; uniform float alpha, wash; out vec4 o;
 void main() {
+  // Seen from behind, a wall does not hide the room.
+  if (dot(n, eye - at) < 0.) discard;
   float lit = .35 + .65 * max(dot(normalize(n), normalize(light - at)), 0.);
   o = vec4(mix(c * lit, air, wash), alpha);
 }`;
@@ -373,6 +375,7 @@ class View {
     gl.uniformMatrix4fv(surface.at("camera"), false, camera);
     gl.uniform3fv(surface.at("light"), this.light);
     gl.uniform3fv(surface.at("air"), this.air);
+    gl.uniform3fv(surface.at("eye"), this.eye);
     gl.uniform1f(surface.at("wash"), this.wash);
     gl.uniform1f(surface.at("alpha"), this.wallAlpha);
     this.drawLayer(surfaces, this.wallAlpha < 1, () =>

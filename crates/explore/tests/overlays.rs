@@ -7,6 +7,7 @@ use browser::launch;
 use compare::explain::explain;
 use explore::comparison::{Comparison, Other};
 use explore::misreading;
+use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8;
@@ -23,7 +24,7 @@ fn traced(misreading: &str) -> Traced {
     if misreading::needs_few_bounces(misreading) {
         run.renderer.max_photon_bounces = misreading::FEW_BOUNCES;
     }
-    Traced::of(run)
+    Traced::of(run, Some(&ExpectedTable::of_assignment8()))
 }
 
 #[test]

@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use browser::{Browser, launch};
 use compare::explain::{Hit, Story, explain};
+use explore::Exploration;
 use photon_mapping::assignment8;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
 use serde_json::{Value, json};
@@ -398,7 +399,7 @@ fn table_and_filters_show_what_they_say() {
          document.getElementById(id); field.value = value; field.dispatchEvent(new \
          Event('input')); }",
     );
-    assert_eq!(shown(), "1 photons shown.");
+    assert_eq!(shown(), "1 photon shown.");
     browser.has_been_quiet();
 }
 
@@ -438,6 +439,80 @@ fn without_webgl_the_rest_works() {
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
     browser.click_on("#table td button");
     browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn two_fingers_zoom_and_one_turns() {
+    let Some(browser) = launch(true) else { return };
+    browser.size(390, 844);
+    browser.media("prefers-reduced-motion", "reduce");
+    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
+    let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
+    let place = "(() => { const r = page.view.canvas.getBoundingClientRect(); \
+                 return [r.x + r.width / 2, r.y + r.height / 2]; })()";
+    let place = browser.run(place);
+    browser.pinch(float(&place[0]), float(&place[1]), 80.0, 160.0);
+    let halved = of_camera("distance") / distance;
+    assert!((halved - 0.5).abs() < 0.05, "{halved}");
+    assert_eq!(of_camera("yaw"), yaw);
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=emission");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn it_fills_a_projector() {
+    let Some(browser) = launch(true) else { return };
+    browser.size(1920, 1080);
+    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
+    assert_eq!(browser.run(is_too_wide), false);
+    let edge = |selector: &str, edge: &str| {
+        let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
+        float(&browser.run(&format!("{node}.{edge}")))
+    };
+    assert!(edge("#view", "width") > 900.0, "{}", edge("#view", "width"));
+    assert!(edge("#code .lit", "bottom") < 1080.0, "{}", edge("#code .lit", "bottom"));
+    browser.has_been_quiet();
+}
+
+#[test]
+fn a_lost_graphics_context_leaves_picture_table_and_story() {
+    let Some(browser) = open_handout("#photon=73&bounce=0&step=roulette") else { return };
+    browser.run("page.view.gl.getExtension('WEBGL_lose_context').loseContext()");
+    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    browser.press("ArrowRight");
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
+    browser.click_on("#table td button");
+    browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn a_scene_of_ones_own_is_explored() {
+    let Some(browser) = launch(true) else { return };
+    let traced = Traced::of(fixtures::closed_cube(0.5, 7, 2000), None);
+    let (surfaces, total) = &traced.table;
+    let exploration =
+        Exploration { is_handout: false, table: (surfaces, total), ..traced.exploration(None) };
+    browser.open(&write_page("cube", &exploration.page()), "");
+    let stored = traced.records.len();
+    assert_eq!(
+        browser.text("document.getElementById('shown').textContent"),
+        format!("{},{:03} photons shown.", stored / 1000, stored % 1000)
+    );
+    let photon = traced.records[0].photon;
+    assert_eq!(browser.text("document.getElementById('photon').value"), photon.to_string());
+    // From the box's outside its walls are turned away, so the dots within are in sight.
+    browser.settle();
+    let drawn = "(() => { const v = page.view, gl = v.gl; v.drawNow(); \
+         const all = new Uint8Array(4 * v.canvas.width * v.canvas.height); \
+         gl.readPixels(0, 0, v.canvas.width, v.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, all); \
+         let dots = 0; for (let i = 0; i < all.length; i += 4) dots += all[i + 2] > all[i] + 60; \
+         return dots; })()";
+    let drawn = float(&browser.run(drawn));
+    assert!(drawn > 100.0, "{drawn}");
     browser.has_been_quiet();
 }
 

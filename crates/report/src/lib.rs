@@ -4,22 +4,22 @@
 //! the numbers behind it as CSV. All errors are against [`oracle`], which traces nothing.
 
 pub mod both_precisions;
-pub mod convergence;
-pub mod csv;
-pub mod hits;
-pub mod judge;
-pub mod machine;
-pub mod offset;
-pub mod page;
+mod convergence;
+mod csv;
+mod hits;
+mod judge;
+mod machine;
+mod offset;
+mod page;
 pub mod plan;
-pub mod plot;
-pub mod precision;
-pub mod rules;
-pub mod samplers;
-pub mod speed_runs;
-pub mod statistics;
-pub mod transform;
-pub mod true_paths;
+mod plot;
+mod precision;
+mod rules;
+mod samplers;
+mod speed_runs;
+mod statistics;
+mod transform;
+mod true_paths;
 
 use plan::Plan;
 

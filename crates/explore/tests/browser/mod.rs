@@ -238,6 +238,18 @@ impl Browser {
         self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
     }
 
+    /// Moves two fingers apart, or together: around the CSS pixel (`x`, `y`) of the window, from a
+    /// distance of `from` pixels to one of `to`.
+    pub fn pinch(&self, x: f64, y: f64, from: f64, to: f64) {
+        for (kind, apart) in [("touchStart", from), ("touchMove", to)] {
+            let finger =
+                |id: u32, side: f64| json!({ "id": id, "x": x + side * apart / 2.0, "y": y });
+            let points = json!([finger(0, -1.0), finger(1, 1.0)]);
+            self.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+        }
+        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    }
+
     /// Presses the key `key`, as `ArrowRight` or `n`.
     pub fn press(&self, key: &str) {
         let code = match key {

@@ -29,11 +29,11 @@ pub struct Traced {
 impl Traced {
     /// The run with `photons` emitted.
     pub fn new(photons: u64) -> Self {
-        Self::of(Run::handout(assignment8::SEED, photons))
+        Self::of(Run::handout(assignment8::SEED, photons), Some(&ExpectedTable::of_assignment8()))
     }
 
-    /// Traces `run`.
-    pub fn of(mut run: Run) -> Self {
+    /// Traces `run`, for which `expected` is known.
+    pub fn of(mut run: Run, expected: Option<&ExpectedTable>) -> Self {
         let emitted = run.renderer.emitted();
         let mut records = Vec::new();
         let traced: Result<_, std::convert::Infallible> = run.trace_list(0..emitted, |piece, _| {
@@ -45,7 +45,7 @@ impl Traced {
         let mut tally = Tally::new(names);
         records.iter().for_each(|record| tally.add(record));
         let max_bounces = run.renderer.max_photon_bounces as usize;
-        let table = tally.surfaces(emitted, max_bounces, Some(&ExpectedTable::of_assignment8()));
+        let table = tally.surfaces(emitted, max_bounces, expected);
         let positions = records.iter().map(|record| record.position);
         run.renderer.diffuse_map = PhotonMap::new(positions);
         let camera = assignment8::create_camera(640, 480);

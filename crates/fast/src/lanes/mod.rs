@@ -3,11 +3,11 @@
 //!
 //! A wave of photons takes each step together:
 //!
-//! - [`emission`] draws their directions in the lanes of the processor's vectors.
-//! - [`outlook`] tells what a photon from a light may meet, and [`first_hit`] what it meets.
+//! - `emission` draws their directions in the lanes of the processor's vectors.
+//! - `outlook` tells what a photon from a light may meet, and `first_hit` what it meets.
 //! - [`closest_hit`] tells what a scattered photon meets.
-//! - [`scattering`] gives those that survive the roulette a new direction.
-//! - [`wave`] is the loop around them.
+//! - `scattering` gives those that survive the roulette a new direction.
+//! - `wave` is the loop around them.
 //!
 //! [`picture`] traces camera and shadow rays in the same way. [`width`] chooses the vector
 //! instructions when the program runs.
@@ -25,17 +25,17 @@
 //!
 //! If you change `trace_photon`, these tests fail until you make the same change here.
 
-pub mod chacha;
+mod chacha;
 pub mod closest_hit;
-pub mod draws;
-pub mod emission;
-pub mod first_hit;
+mod draws;
+mod emission;
+mod first_hit;
 pub mod offset;
-pub mod outlook;
+mod outlook;
 pub mod picture;
-pub mod scattering;
-pub mod trigonometry;
-pub mod wave;
+mod scattering;
+mod trigonometry;
+mod wave;
 pub mod width;
 
 use std::ops::Range;
