@@ -45,8 +45,8 @@ pub struct Scene {
     pub emitters: Vec<(DVec3, f64)>,
     /// Whether facets were moved by [`GAP`].
     pub is_parted: bool,
-    /// Least and greatest distance of the corners of plate `b` from the plane of plate `a`, at `a
-    /// * n + b`.
+    /// Least and greatest distance of the corners of plate `b` from the plane of plate `a`, at
+    /// `a * n + b`.
     ranges: Vec<(f64, f64)>,
     /// Possible occluders, at `(a * 2 + side) * n + target`.
     between: Vec<Vec<u32>>,

@@ -178,12 +178,13 @@ fn markdown(samplers: &Samplers) -> String {
         short(sobol_time, 3),
         short(time_ratio, 3)
     );
-    text += "- Limits of this Sobol sequence: 2^32 photons. Numbers have 24 bits, as the reference's, \
-             so past 2^24 photons a single dimension is not stratified further. Emission and two \
-             bounces share one point of eight dimensions. Every later bounce has a sequence of its \
-             own, where little is gained. Its photons are not independent, so a summary gives no \
-             standard deviations.\n- Again: `photon-mapping render --sampler sobol --seed S \
-             --photons N`.\n\nData: [every run](sampler-runs.csv), [errors](sampler.csv).\n";
+    text += "- Limits of this Sobol sequence: 2^32 photons. Numbers have 24 bits, as the \
+             reference's, so past 2^24 photons a single dimension is not stratified further. \
+             Emission and two bounces share one point of eight dimensions. Every later bounce has \
+             a sequence of its own, where little is gained. Its photons are not independent, so a \
+             summary gives no standard deviations.\n- Again: `photon-mapping render --sampler \
+             sobol --seed S --photons N`.\n\nData: [every run](sampler-runs.csv), \
+             [errors](sampler.csv).\n";
     text
 }
 

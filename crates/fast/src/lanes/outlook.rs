@@ -4,12 +4,12 @@
 //! scene at once. So the directions are divided into cells: six faces of a cube with a grid on
 //! each. Each cell keeps the triangles that a ray through it *may* meet: often none, mostly one.
 //!
-//! The bits cannot change, because a triangle is left out of a cell only where the test of
-//! [`photon_mapping::scene::triangle`] is certain to refuse it. That test sees a corner at `x' = x
-//! - s z`. Here (x, y, z) lead from the light to the corner in the order of the ray's axes. The
-//! shear s = d_x / d_z lies in [-1, 1]. Rounding is monotonic, so the *rounded* x' of all rays of a
-//! cell lies between the rounded x' of its two ends. So a statement about these intervals holds for
-//! what the test computes. It refuses every ray of the cell when
+//! The bits cannot change. A triangle is left out of a cell only where the test of
+//! [`photon_mapping::scene::triangle`] is certain to refuse it. That test sees a corner at
+//! `x' = x - s z`. Here (x, y, z) lead from the light to the corner in the order of the ray's axes.
+//! The shear s = d_x / d_z lies in [-1, 1]. Rounding is monotonic, so the *rounded* x' of all rays
+//! of a cell lies between the rounded x' of its two ends. So a statement about these intervals
+//! holds for what the test computes. It refuses every ray of the cell when
 //!
 //! - no corner has positive depth: t is then a mean of numbers <= 0, never > 0;
 //! - all corners have x' > 0 (or x' < 0, or the same of y'): since `a_x u + b_x v + c_x w = 0`, the
