@@ -18,9 +18,14 @@ const STYLE: &str = include_str!("../assets/explore.css");
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../assets/data.js"),
+    include_str!("../assets/shaders.js"),
     include_str!("../assets/view.js"),
+    include_str!("../assets/orbit.js"),
     include_str!("../assets/story.js"),
     include_str!("../assets/diagrams.js"),
+    include_str!("../assets/counts.js"),
+    include_str!("../assets/box.js"),
+    include_str!("../assets/panel.js"),
     include_str!("../assets/app.js"),
     "})();\n"
 );
