@@ -36,7 +36,11 @@ pub fn to_reference<'list>(
             record.photon = record.photon.saturating_add_signed(shift);
         }
         let by = shift.unsigned_abs();
-        let way = if shift < 0 { "counted from a larger number" } else { "counted from a smaller number" };
+        let way = if shift < 0 {
+            "counted from a larger number"
+        } else {
+            "counted from a smaller number"
+        };
         notes.push(format!("photon is shifted by {by} ({way}); compared as the reference counts"));
     }
     (list, notes)
@@ -72,7 +76,8 @@ fn other_axes(
             (order, [sign(0), sign(1), sign(2)])
         })
     });
-    let (order, signs) = every.into_iter().max_by_key(|(order, signs)| matched(&matrix(*order, *signs)))?;
+    let (order, signs) =
+        every.into_iter().max_by_key(|(order, signs)| matched(&matrix(*order, *signs)))?;
     let axes = matrix(order, signs);
     if 2 * matched(&axes) < all.len() {
         return None;
@@ -113,7 +118,8 @@ fn photon_shift(reference: &PhotonList, submission: &PhotonList, tolerance: f32)
         let is_found = |position: Vec3, photon: u32| {
             let number = photon.checked_add_signed(shift);
             let of_photon = number.and_then(|number| places.get(&number));
-            of_photon.is_some_and(|all| all.iter().any(|other| is_near(*other, position, tolerance)))
+            of_photon
+                .is_some_and(|all| all.iter().any(|other| is_near(*other, position, tolerance)))
         };
         all.iter().filter(|record| is_found(record.position, record.photon)).count()
     };

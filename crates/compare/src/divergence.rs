@@ -85,8 +85,8 @@ impl Lists<'_> {
             .filter(|(_, difference)| *difference == Difference::Place)
             .map(|(pairing, _)| *pairing);
         let Some((story, known)) = story.zip(known) else {
-            let verdict =
-                known.and_then(|known| self.majority(places, known).or_else(|| only_extra(differing)));
+            let verdict = known
+                .and_then(|known| self.majority(places, known).or_else(|| only_extra(differing)));
             return Divergence {
                 photon,
                 bounce,
@@ -135,7 +135,9 @@ impl Lists<'_> {
             }
         };
         let reason = match difference {
-            Difference::Intensity => "intensity is the light's colour divided by the photons it emits",
+            Difference::Intensity => {
+                "intensity is the light's colour divided by the photons it emits"
+            }
             _ => "to_light is the opposite of the photon ray's direction",
         };
         Divergence {
@@ -249,9 +251,16 @@ impl Lists<'_> {
                 break;
             }
         }
-        let most =
-            votes.into_iter().max_by_key(|((is_certain, _), (count, _))| (*is_certain, *count));
-        most.map(|(_, (_, verdict))| verdict)
+        let all: usize = votes.values().map(|(count, _)| count).sum();
+        let is_known = self.submission.columns.photon;
+        let most = votes.into_iter().max_by_key(|((is_certain, _), (count, _))| {
+            // Where a list does not tell its photons, a few fit something by chance.
+            (*is_certain && (is_known || 10 * count > all), *count)
+        });
+        most.map(|(_, (count, verdict))| {
+            let is_certain = verdict.is_certain && (is_known || 10 * count > all);
+            Verdict { is_certain, ..verdict }
+        })
     }
 }
 

@@ -192,8 +192,7 @@ pub(crate) fn hit(
     let scene = run.scene();
     let triangle = state.primitive(scene);
     let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
-    let direction =
-        sample.map(|sample| (sample.frame * sample.local).normalize().to_array());
+    let direction = sample.map(|sample| (sample.frame * sample.local).normalize().to_array());
     let world = &run.placement;
     Hit {
         bounce,

@@ -9,10 +9,8 @@ use super::fair::Fair;
 use super::fair_search::{LONGEST_OFFSET, Search, Window};
 use super::hypotheses::other_emissions;
 use super::known::Known;
-use crate::position_index::PositionIndex;
 use crate::report::scene_size;
 use photon_list::reader::PhotonList;
-use photon_mapping::scene::ray::{IntersectionState, Ray};
 use variants::section::Section;
 
 /// So many of the photons that differ are traced again under every reading.
@@ -66,7 +64,15 @@ pub fn explain_fairly<'run>(
         _ => base,
     };
     let windows = windows(lists, differing, size);
-    let fair = search.best(&base, &windows).or((Fair::of(run) != Some(base)).then_some(base))?;
+    let other_draws = (Fair::of(run) != Some(base)).then_some(base);
+    let by_place = || {
+        let photons: Vec<_> = windows.iter().map(|window| window.photon).collect();
+        let records = lists.submission.records.iter();
+        let positions: Vec<_> = records.map(|record| record.position).collect();
+        let is_told = lists.submission.columns.photon;
+        (!is_told).then(|| search.best_by_place(&base, &photons, &positions))?
+    };
+    let fair = search.best(&base, &windows).or_else(by_place).or(other_draws)?;
     let changes = fair.changes(run);
     if changes.is_empty() {
         return None;
@@ -85,7 +91,7 @@ fn photons_of(lists: &Lists) -> Option<Vec<u64>> {
     lists.submission.columns.photon.then(|| photons.collect())
 }
 
-/// Whether the submission's random numbers are others than the run's.
+/// Whether the submission's random numbers are others than the run's, as far as the lists tell.
 pub fn has_other_draws(known: &Known, lists: &Lists) -> bool {
     if lists.submission.records.is_empty() {
         return false;
@@ -95,46 +101,33 @@ pub fn has_other_draws(known: &Known, lists: &Lists) -> bool {
         return false;
     }
     let Some(fair) = known.fair() else { return false };
+    if come_from_the_light(known, lists) {
+        return false;
+    }
     if let Some(photons) = photons_of(lists) {
         let search = Search { run: known.run, tolerance: lists.tolerance, size: 1.0 };
         let others = other_emissions(fair.tries).map(|(tries, _)| Fair { tries, ..fair });
         return search.hitting_part(&fair, &photons) < SAME_EMISSION
             && others.iter().all(|other| search.scattered_part(other, &photons) < 0.9);
     }
-    if !lists.submission.columns.to_light {
-        return true;
-    }
-    let part = first_hits_part(known, lists);
-    part < SAME_DRAWS / 2.0
+    true
 }
 
-/// The part of the submission's records, without numbers, that came from a point where a photon of the
-/// reference scatters first.
-fn first_hits_part(known: &Known, lists: &Lists) -> f32 {
-    let run = known.run;
-    let emitted = run.renderer.emitted();
-    let stories = (0..emitted).filter_map(|photon| known.story(photon));
-    let first = stories.filter_map(|story| {
-        story.hits.first().filter(|hit| hit.scattered).map(|hit| run.placement.to_scene(hit.point().as_dvec3()))
-    });
-    let first: Vec<_> = first.collect();
-    let size = scene_size(run.scene());
-    let index = PositionIndex::new(&first, 5e-4 * size);
-    let step = lists.submission.records.len() / SAMPLE + 1;
-    let mut tried = 0;
-    let mut found = 0;
-    for record in lists.submission.records.iter().step_by(step) {
-        let start = run.placement.to_scene(record.position.as_dvec3());
-        let Some(back) = record.to_light.try_normalize().filter(|_| start.is_finite()) else {
-            continue;
-        };
-        tried += 1;
-        let mut state = IntersectionState::new();
-        if run.scene().trace(&Ray::new(start + 1e-3 * size * back, back), Some(&mut state)) {
-            found += usize::from(!index.near(state.intersection_point(), 0).is_empty());
-        }
+/// Whether the directions of most records lead back to a light: rays start there again.
+fn come_from_the_light(known: &Known, lists: &Lists) -> bool {
+    if !lists.submission.columns.to_light {
+        return false;
     }
-    found as f32 / tried.max(1) as f32
+    let run = known.run;
+    let reach = LONGEST_OFFSET * run.placement.length_to_world(scene_size(run.scene()));
+    let lights = run.scene().lights().iter().map(|light| run.placement.to_world(light.position));
+    let lights: Vec<_> = lights.collect();
+    let records = &lists.submission.records;
+    let lead_back = records.iter().filter(|record| {
+        let back = record.to_light.normalize_or_zero();
+        lights.iter().any(|light| (*light - record.position).cross(back).length() < reach)
+    });
+    2 * lead_back.count() > records.len()
 }
 
 /// What the submission may have stored of some of the photons that differ, spread over the run.

@@ -104,14 +104,8 @@ impl Fair {
     pub fn story(&self, run: &Run, photon: u64) -> Option<Story> {
         let (light_index, light, _) = light_of(run, photon)?;
         let mut rand = photon_random(run.renderer.seed, photon);
-        let mut tries = Vec::new();
-        let direction = loop {
-            let point = self.tries.draw(&mut rand);
-            tries.push(point.to_array());
-            if self.tries.takes(point) {
-                break point.normalize();
-            }
-        };
+        let tries = self.tries.until_taken(&mut rand);
+        let direction = tries[tries.len() - 1].normalize();
         let mut ray = Ray::new(light.position, direction);
         let mut hits: Vec<Hit> = Vec::new();
         let mut ending = Ending::LeftTheScene;
@@ -131,8 +125,19 @@ impl Fair {
             }
             ray = self.next_ray(run, &state, sample);
         }
+        let tries = tries.into_iter().map(|point| point.to_array()).collect();
         let emission = Emission { light: light_index, tries, direction: direction.to_array() };
         Some(Story { photon, seed: run.renderer.seed, emission, hits, ending })
+    }
+
+    /// Where photon `photon` of `run` hits first, in world space.
+    pub fn first_hit(&self, run: &Run, photon: u64) -> Option<Vec3> {
+        let (_, light, _) = light_of(run, photon)?;
+        let tries = self.tries.until_taken(&mut photon_random(run.renderer.seed, photon));
+        let ray = Ray::new(light.position, tries[tries.len() - 1].normalize());
+        let mut state = IntersectionState::new();
+        let is_hit = run.scene().trace(&ray, Some(&mut state));
+        is_hit.then(|| run.placement.to_world(state.intersection_point()))
     }
 
     fn scatter(
@@ -251,6 +256,15 @@ impl Tries {
             }
     }
 
+    /// The tries, of which the last one is taken.
+    fn until_taken(&self, rand: &mut impl FnMut() -> f32) -> Vec<Vec3> {
+        let mut tries = Vec::new();
+        while tries.last().is_none_or(|point| !self.takes(*point)) {
+            tries.push(self.draw(rand));
+        }
+        tries
+    }
+
     fn draw(&self, rand: &mut impl FnMut() -> f32) -> Vec3 {
         let drawn = [0; 3].map(|_| if self.unscaled { rand() } else { 2.0 * rand() - 1.0 });
         let coordinate = |axis: usize| {
@@ -296,7 +310,10 @@ fn shift_name(shift: Shift) -> Option<String> {
         (length.abs() >= 5e-6).then(|| format!("{} {way}", two_digits(length.abs())))
     };
     let parts: Vec<_> = [
-        one(shift.along_normal, if shift.along_normal < 0.0 { "below" } else { "along the normal" }),
+        one(
+            shift.along_normal,
+            if shift.along_normal < 0.0 { "below" } else { "along the normal" },
+        ),
         one(shift.back, if shift.back < 0.0 { "on along the ray" } else { "back along the ray" }),
     ]
     .into_iter()

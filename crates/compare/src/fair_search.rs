@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::explain::Story;
 use crate::fair::{Draws, Fair, Shift, Tries, needed, normals};
+use crate::position_index::PositionIndex;
 use variants::frame::Frame;
 use variants::run::Run;
 
@@ -111,8 +112,7 @@ impl Search<'_> {
                 }
             }
         }
-        let parts: Vec<_> =
-            all.par_iter().map(|fair| self.scattered_part(fair, photons)).collect();
+        let parts: Vec<_> = all.par_iter().map(|fair| self.scattered_part(fair, photons)).collect();
         let best = parts.iter().copied().fold(0.0, f32::max);
         let first = parts.iter().position(|part| *part >= best - 0.005)?;
         (best > 0.9).then(|| all[first])
@@ -127,7 +127,9 @@ impl Search<'_> {
         let mut finalists = self.frames(base, &told);
         if finalists.is_empty() {
             let [roulette, a, b] = base.draws.order;
-            for (order, complement) in [([roulette, b, a], false), ([roulette, a, b], true), ([roulette, b, a], true)] {
+            for (order, complement) in
+                [([roulette, b, a], false), ([roulette, a, b], true), ([roulette, b, a], true)]
+            {
                 let draws = Draws { order, complement };
                 finalists = self.frames(&Fair { draws, ..*base }, &told);
                 if !finalists.is_empty() {
@@ -148,6 +150,26 @@ impl Search<'_> {
         let gain = score.tight.saturating_sub(before.tight);
         let all = told.iter().filter(|window| window.is_exact).count();
         (gain >= FEWEST && 5 * gain >= all && score.is_right_way()).then_some(fair)
+    }
+
+    /// The fair way under which most of `photons` are stored where the list, which does not tell its photons,
+    /// has any record; nothing where a quarter of them are not, or `base` does about as well.
+    pub fn best_by_place(&self, base: &Fair, photons: &[u64], positions: &[Vec3]) -> Option<Fair> {
+        let index = PositionIndex::new(positions, self.tolerance);
+        let found = |fair: &Fair| {
+            let stories = photons.iter().filter_map(|photon| fair.story(self.run, *photon));
+            let stored: Vec<_> = stories.flat_map(|story| fair.stored(&story)).collect();
+            let near = stored.iter().filter(|position| !index.near(**position, 0).is_empty());
+            near.count() as f32 / stored.len().max(FEWEST) as f32
+        };
+        let fairs: Vec<_> = Frame::all(&normals(self.run))
+            .into_iter()
+            .map(|frame| Fair { frame, ..*base })
+            .collect();
+        let parts: Vec<_> = fairs.par_iter().map(found).collect();
+        let most = parts.iter().copied().fold(0.0, f32::max);
+        let first = parts.iter().position(|part| *part >= most)?;
+        (most > 0.75 && most > 1.5 * found(base)).then(|| fairs[first])
     }
 
     /// How many of `windows` are explained in full under `fair`.
@@ -286,7 +308,8 @@ impl Search<'_> {
                 let stored = fair.stored(&story);
                 let shifted: [Option<(Story, Vec<Vec3>)>; 4] = std::array::from_fn(|at| {
                     let moved = moved(&fair, at, step);
-                    let story = (support >> at & 1 == 1).then(|| moved.story(self.run, window.photon))??;
+                    let story = (support >> at & 1 == 1)
+                        .then(|| moved.story(self.run, window.photon))??;
                     let stored = moved.stored(&story);
                     Some((story, stored))
                 });

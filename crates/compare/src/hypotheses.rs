@@ -73,7 +73,10 @@ pub fn hypotheses(
 pub fn other_emissions(fair: Tries) -> [(Tries, &'static str); 4] {
     let all = Taken::All;
     [
-        (Tries { taken: all, ..fair }, "the first try is taken, though it may lie outside the sphere"),
+        (
+            Tries { taken: all, ..fair },
+            "the first try is taken, though it may lie outside the sphere",
+        ),
         (Tries { unscaled: true, ..fair }, "x, y and z lie in [0, 1), not in [-1, 1)"),
         (
             Tries { taken: all, unscaled: true, ..fair },

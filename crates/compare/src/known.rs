@@ -41,9 +41,9 @@ impl Known<'_> {
         let pieces: Vec<_> = (0..emitted.div_ceil(PIECE)).collect();
         let records = pieces.into_par_iter().flat_map_iter(|piece| {
             let photons = piece * PIECE..((piece + 1) * PIECE).min(emitted);
-            photons.filter_map(|photon| fair.story(self.run, photon)).flat_map(|story| {
-                self.records(fair, &story)
-            })
+            photons
+                .filter_map(|photon| fair.story(self.run, photon))
+                .flat_map(|story| self.records(fair, &story))
         });
         let columns =
             Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };

@@ -4,7 +4,8 @@
 //! picks the first difference and asks [`verdict`] which [section](variants::section) of the handout it belongs to,
 //! which in turn tries the [`hypotheses`] of what students do instead; [`whole`] looks at all differences together. [`fair_search`] tries whether
 //! another [`fair`] way explains the differences, so that [`divergence`] looks at what is left of them.
-//! [`conventions`] undoes other axes and numbers first. [`report`] puts it together; [`pictures`] compares
+//! [`conventions`] undoes other axes and numbers first, and [`numbering`] finds the photons of lists that do
+//! not tell them. [`report`] puts it together; [`pictures`] compares
 //! pictures instead.
 
 pub mod alignment;
@@ -17,6 +18,7 @@ pub mod fair;
 pub mod fair_search;
 pub mod hypotheses;
 pub mod known;
+pub mod numbering;
 pub mod numbers;
 pub mod pictures;
 pub mod position_index;

@@ -7,8 +7,10 @@ use super::alignment::{Pairing, align, with_bounces};
 use super::conventions::to_reference;
 use super::differences::{Difference, Differences, count, same_to_light};
 use super::divergence::{Divergence, Lists};
-use super::explanation::{Explanation, explain_fairly, has_other_draws};
+use super::explanation::{explain_fairly, has_other_draws};
 use super::known::Known;
+use super::numbering::{REACHES, with_photons};
+use super::numbers::thousands;
 use super::position_index::is_near;
 use super::whole::judge_whole;
 use crate::explain::explain;
@@ -129,49 +131,23 @@ pub fn compare(
     if compared.differing.is_empty() {
         return report;
     }
-    let known = run.filter(|run| is_run_of(reference, run, tolerance));
-    let known = known.map(|run| Known { run, fair: None });
-    if known.is_none() {
+    let Some(run) = run.filter(|run| is_run_of(reference, run, tolerance)) else {
         report.add_note(
             "the run of the reference is not known; --seed and --photons (and --max-bounces, \
              --scene, --light) name it, so that the divergence can be explained",
         );
-    }
-    let explanation = known.filter(|_| !agree).and_then(|known| {
+        report.add_divergence(&compared.lists(reference, submission), &compared.differing, None);
+        return report;
+    };
+    if !agree {
+        let allowed = LEFT_BY_READING.max(f64::from(allowed));
+        let few = |left: &Compared| left.few(allowed, records);
+        report.explain(run, reference, submission, compared, few);
+    } else {
         let lists = compared.lists(reference, submission);
-        explain_fairly(&known, &lists, &compared.differing)
-    });
-    match &explanation {
-        Some(explanation) => {
-            let again = Compared::new(&explanation.reference, submission, tolerance);
-            report.add_explanation(explanation, &again);
-            let allowed = LEFT_BY_READING.max(f64::from(allowed));
-            if again.few(allowed, records) {
-                report.outcome = Outcome::SameUnderAnotherReading;
-                report.first_divergence = Some(report.first_harmless(
-                    &compared.lists(reference, submission),
-                    &compared.differing,
-                    explanation,
-                ));
-                return report;
-            }
-            let known = explanation.known;
-            let lists = again.lists(&explanation.reference, submission);
-            report.add_divergence(&lists, &again.differing, Some(&known));
-        }
-        None => {
-            let lists = compared.lists(reference, submission);
-            report.add_divergence(&lists, &compared.differing, known.as_ref());
-            if known.is_some_and(|known| has_other_draws(&known, &lists)) {
-                report.uncertain();
-                report.add_note(
-                    "the random numbers differ: a list with another generator, seed or order of \
-                     draws can be compared only by its statistics, as grade does",
-                );
-            }
-        }
+        report.add_divergence(&lists, &compared.differing, Some(&Known { run, fair: None }));
     }
-    if compared.few(USUAL_BY_ROUNDING, records) && !agree {
+    if report.differences_are_few(USUAL_BY_ROUNDING, records) && !agree {
         report.add_note(
             "so few may differ by rounding alone, where light grazes a surface or an edge; \
              --allow 0.0001 lets them pass",
@@ -207,9 +183,8 @@ impl Compared {
             _ => None,
         });
         let near = matched.filter(|(a, b)| is_near(a.position, b.position, *tolerance));
-        let [all, same] = near.fold([0, 0], |[all, same], (a, b)| {
-            [all + 1, same + usize::from(same_to_light(a, b))]
-        });
+        let [all, same] = near
+            .fold([0, 0], |[all, same], (a, b)| [all + 1, same + usize::from(same_to_light(a, b))]);
         let has_true_to_light =
             submission.columns.to_light && (all < FEWEST_MATCHED || 2 * same > all);
         Lists { reference, submission, pairings, tolerance: *tolerance, has_true_to_light }
@@ -242,26 +217,87 @@ fn is_run_of(list: &PhotonList, run: &Run, tolerance: f32) -> bool {
 }
 
 impl Report {
-    fn add_explanation(&mut self, explanation: &Explanation, again: &Compared) {
-        self.reading = Some(explanation.name());
-        self.reading_matched = Some(explanation.matched);
-        self.reading_tried = Some(explanation.tried);
-        self.reading_left = Some(again.differing.len() as u64);
+    /// Says why `submission`, which differs, does: by a fair reading under which only a `few` records
+    /// differ, or by the first divergence that no fair reading explains.
+    fn explain(
+        &mut self,
+        run: &Run,
+        reference: &PhotonList,
+        submission: &PhotonList,
+        compared: Compared,
+        few: impl Fn(&Compared) -> bool,
+    ) {
+        let known = Known { run, fair: None };
+        let explain = |list: &PhotonList, compared: &Compared| {
+            let lists = compared.lists(reference, list);
+            let explanation = explain_fairly(&known, &lists, &compared.differing)?;
+            let left = Compared::new(&explanation.reference, submission, compared.tolerance);
+            Some((explanation, left))
+        };
+        let mut explanation = explain(submission, &compared);
+        let mut told = None;
+        for reach in REACHES {
+            if explanation.as_ref().is_some_and(|(_, left)| few(left)) {
+                break;
+            }
+            let Some(list) = with_photons(run, submission, reach) else { continue };
+            let again = Compared::new(reference, &list, compared.tolerance);
+            let found = explain(&list, &again);
+            let is_explained = found.as_ref().is_some_and(|(_, left)| few(left));
+            // With a longer reach, only what turns out to explain all is to be trusted.
+            if is_explained || reach == REACHES[0] {
+                explanation = found;
+                told = Some((list, again));
+                break;
+            }
+        }
+        if let Some((explanation, left)) = &explanation {
+            self.reading = Some(explanation.name());
+            self.reading_matched = Some(explanation.matched);
+            self.reading_tried = Some(explanation.tried);
+            self.reading_left = Some(left.differing.len() as u64);
+            if few(left) {
+                self.outcome = Outcome::SameUnderAnotherReading;
+                let lists = compared.lists(reference, submission);
+                self.first_divergence = Some(Divergence {
+                    section: explanation.changes.first().map(|(section, _)| *section),
+                    reason: Some(format!("another fair reading: {}", explanation.name())),
+                    certain: true,
+                    ..lists.first_divergence(&compared.differing, Some(&known))
+                });
+                return;
+            }
+        }
+        if let Some((list, _)) = &told {
+            self.add_note(&format!(
+                "the submission does not tell its photons; they were found for {} of its records \
+                 by the directions to the light",
+                thousands(list.records.len() as u64)
+            ));
+        }
+        let (list, compared) = told.as_ref().map_or((submission, &compared), |(l, c)| (l, c));
+        if let Some((explanation, _)) = &explanation {
+            let left = Compared::new(&explanation.reference, list, compared.tolerance);
+            let lists = left.lists(&explanation.reference, list);
+            return self.add_divergence(&lists, &left.differing, Some(&explanation.known));
+        }
+        let lists = compared.lists(reference, list);
+        self.add_divergence(&lists, &compared.differing, Some(&known));
+        if has_other_draws(&known, &lists) {
+            self.uncertain(list.columns.photon);
+            let differ = if list.columns.photon { "differ" } else { "may differ" };
+            self.add_note(&format!(
+                "the random numbers {differ}: a list with another generator, seed or order of draws \
+                 can be compared only by its statistics, as grade does"
+            ));
+        }
     }
 
-    /// Where the lists part first, put down to the fair reading that explains it.
-    fn first_harmless(
-        &self,
-        lists: &Lists,
-        differing: &[(Pairing, Difference)],
-        explanation: &Explanation,
-    ) -> Divergence {
-        Divergence {
-            section: explanation.changes.first().map(|(section, _)| *section),
-            reason: Some(format!("another fair reading: {}", explanation.name())),
-            certain: true,
-            ..lists.first_divergence(differing, None)
-        }
+    fn differences_are_few(&self, part: f64, records: u64) -> bool {
+        let Differences { missing, extra, moved, wrong_intensity, wrong_to_light, .. } =
+            self.differences;
+        let differing = missing + extra + moved + wrong_intensity + wrong_to_light;
+        differing as f64 <= part * records as f64
     }
 
     fn add_divergence(
@@ -279,8 +315,12 @@ impl Report {
         self.first_divergence = Some(divergence);
     }
 
-    fn uncertain(&mut self) {
+    /// Takes back what was said of the first divergence; its section, too, if photons are not told.
+    fn uncertain(&mut self, has_photons: bool) {
         if let Some(divergence) = &mut self.first_divergence {
+            if !(divergence.certain || has_photons) {
+                (divergence.section, divergence.reason) = (None, None);
+            }
             divergence.certain = false;
         }
     }

@@ -60,7 +60,8 @@ impl Observation<'_> {
     /// How far the start of a ray may be from the hit, in world units.
     fn reach(&self) -> f32 {
         let run = self.known.run;
-        LONGEST_OFFSET * run.placement.length_to_world(scene_size(run.scene())) + 20.0 * self.tolerance
+        LONGEST_OFFSET * run.placement.length_to_world(scene_size(run.scene()))
+            + 20.0 * self.tolerance
     }
 
     /// Points from which rays start where it is forgotten to set their position.
@@ -207,6 +208,9 @@ fn judge_same_place(observation: &Observation, hit: &Hit, to_light: Option<Vec3>
 fn judge_other_origin(observation: &Observation) -> Verdict {
     if observation.bounce > 1 {
         return guess(Section::PhotonStorage, "to_light does not point to the hit before");
+    }
+    if !observation.is_same_photon {
+        return guess(Section::HemisphereSampling, "the photon comes from elsewhere");
     }
     judge_emission(observation, false)
 }
