@@ -6,8 +6,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::explain::Story;
-use crate::fair::{Draws, Fair, Shift, Tries, needed, normals};
+use crate::fair::{Draws, Fair, Tries, normals};
 use crate::position_index::PositionIndex;
 use variants::frame::Frame;
 use variants::run::Run;
@@ -15,15 +14,13 @@ use variants::run::Run;
 /// A longer offset loses photons near edges, and is no fair one. As a part of the scene's longest edge.
 pub const LONGEST_OFFSET: f32 = 3.5e-3;
 /// Positions this far apart may be the same hit seen from another start. As a part of the longest edge.
-const LOOSE: f32 = 0.025;
+pub(crate) const LOOSE: f32 = 0.025;
 /// So many photons decide which frames are looked at closely.
 const FIRST_LOOK: usize = 24;
 /// So many frames are looked at closely.
 const FINALISTS: usize = 8;
 /// Fewer records that match under a reading, and not before, prove nothing.
 const FEWEST: usize = 3;
-/// The steps of the least squares.
-const STEPS: usize = 6;
 
 /// What the submission may have stored of one photon.
 #[derive(Clone, Debug)]
@@ -49,15 +46,15 @@ pub struct Search<'a> {
 
 /// How well a reading explains the windows, step by step along each path, up to the first that does not fit.
 #[derive(Clone, Copy, Debug, Default)]
-struct Score {
+pub(crate) struct Score {
     /// Records in about the right place.
-    loose: usize,
+    pub(crate) loose: usize,
     /// Records in the right place.
-    tight: usize,
+    pub(crate) tight: usize,
     /// Photons that went elsewhere.
     elsewhere: usize,
     /// The sum of the distances.
-    distance: f32,
+    pub(crate) distance: f32,
 }
 
 impl Score {
@@ -75,7 +72,7 @@ impl Score {
     }
 
     /// Whether hardly a record is only about in place.
-    fn is_tight(&self) -> bool {
+    pub(crate) fn is_tight(&self) -> bool {
         100 * self.tight >= 97 * self.loose
     }
 }
@@ -227,7 +224,7 @@ impl Search<'_> {
         finalists.into_iter().map(|(fair, _)| fair).collect()
     }
 
-    fn score(&self, fair: &Fair, windows: &[Window]) -> Score {
+    pub(crate) fn score(&self, fair: &Fair, windows: &[Window]) -> Score {
         windows.iter().map(|window| self.score_one(fair, window)).fold(Score::default(), Score::add)
     }
 
@@ -251,127 +248,10 @@ impl Search<'_> {
         score.elsewhere += usize::from(is_lost && has_more);
         score
     }
-
-    /// `fair` with the simplest offsets under which records come to lie in place.
-    fn fit_offsets(&self, fair: &Fair, windows: &[Window]) -> (Fair, Score) {
-        let [start_n, start_b, stored_n, stored_b] = [1_u8, 2, 4, 8];
-        let supports = [
-            0,
-            start_n,
-            start_b,
-            stored_n,
-            stored_b,
-            start_n | stored_n,
-            start_b | stored_b,
-            start_n | stored_b,
-            start_b | stored_n,
-            start_n | start_b | stored_b,
-            15,
-        ];
-        let mut best = (*fair, self.score(fair, windows));
-        for support in &supports[1..] {
-            if best.1.is_tight() {
-                break;
-            }
-            let fitted = self.fit(fair, *support, windows);
-            let score = self.score(&fitted, windows);
-            let margin = 0.02 * score.loose as f32 + 1.0;
-            if score.tight as f32 > best.1.tight as f32 + margin {
-                best = (fitted, score);
-            }
-        }
-        // Whoever starts the ray elsewhere may have no offset along the normal.
-        let mut bare = best.0;
-        bare.start.along_normal = -needed(self.run);
-        let bare = if support_of(&best.0) == 0 {
-            bare
-        } else {
-            self.fit(&bare, support_of(&best.0) & !1, windows)
-        };
-        let score = self.score(&bare, windows);
-        if score.loose >= best.1.loose && score.distance < 0.8 * best.1.distance {
-            best = (bare, score);
-        }
-        best
-    }
-
-    /// Least squares, each residual weighted by the inverse of its length: of the offsets in `support`.
-    fn fit(&self, fair: &Fair, support: u8, windows: &[Window]) -> Fair {
-        let step = 5e-5 * self.size;
-        let mut fair = *fair;
-        let lowest = -needed(self.run);
-        for _ in 0..STEPS {
-            let mut matrix = [[0.0_f64; 4]; 4];
-            let mut right = [0.0_f64; 4];
-            for window in windows {
-                let Some(story) = fair.story(self.run, window.photon) else { continue };
-                let stored = fair.stored(&story);
-                let shifted: [Option<(Story, Vec<Vec3>)>; 4] = std::array::from_fn(|at| {
-                    let moved = moved(&fair, at, step);
-                    let story = (support >> at & 1 == 1)
-                        .then(|| moved.story(self.run, window.photon))??;
-                    let stored = moved.stored(&story);
-                    Some((story, stored))
-                });
-                for (model, place) in matches(&stored, window, LOOSE * self.size) {
-                    let residual = window.positions[place] - stored[model];
-                    let weight = 1.0 / f64::from(residual.length().max(1e-6 * self.size));
-                    let slope = |at: usize| {
-                        let Some((other, positions)) = &shifted[at] else { return Vec3::ZERO };
-                        let same = other.hits.get(model + 1).is_some_and(|hit| {
-                            let here = &story.hits[model + 1];
-                            (hit.surface_index, hit.facet) == (here.surface_index, here.facet)
-                        });
-                        if same { (positions[model] - stored[model]) / step } else { Vec3::ZERO }
-                    };
-                    let slopes: [Vec3; 4] = std::array::from_fn(slope);
-                    for row in 0..4 {
-                        right[row] += weight * f64::from(slopes[row].dot(residual));
-                        for column in 0..4 {
-                            matrix[row][column] +=
-                                weight * f64::from(slopes[row].dot(slopes[column]));
-                        }
-                    }
-                }
-            }
-            let change = solve(matrix, right);
-            for (at, change) in change.into_iter().enumerate() {
-                let longest = f64::from(LONGEST_OFFSET * self.size);
-                fair = moved(&fair, at, change.clamp(-longest, longest) as f32);
-            }
-            // Below the surface, no ray could leave it.
-            fair.start.along_normal = fair.start.along_normal.max(lowest);
-        }
-        let longest = fair.start.length().max(fair.stored.length());
-        // What is longer is no fair offset: it is not tried any further.
-        if longest > 1.1 * LONGEST_OFFSET * self.size {
-            (fair.start, fair.stored) = (Shift::default(), Shift::default());
-        }
-        fair
-    }
-}
-
-/// Which offsets of `fair` are not 0.
-fn support_of(fair: &Fair) -> u8 {
-    let lengths =
-        [fair.start.along_normal, fair.start.back, fair.stored.along_normal, fair.stored.back];
-    lengths.iter().enumerate().map(|(at, length)| u8::from(*length != 0.0) << at).sum()
-}
-
-/// `fair` with its offset number `at` longer by `change`.
-fn moved(fair: &Fair, at: usize, change: f32) -> Fair {
-    let mut fair = *fair;
-    match at {
-        0 => fair.start.along_normal += change,
-        1 => fair.start.back += change,
-        2 => fair.stored.along_normal += change,
-        _ => fair.stored.back += change,
-    }
-    fair
 }
 
 /// Which of `stored` are found within `reach` in the window, in its order, up to the first that is not.
-fn matches(stored: &[Vec3], window: &Window, reach: f32) -> Vec<(usize, usize)> {
+pub(crate) fn matches(stored: &[Vec3], window: &Window, reach: f32) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut from = 0;
     for (model, position) in stored.iter().enumerate() {
@@ -385,30 +265,4 @@ fn matches(stored: &[Vec3], window: &Window, reach: f32) -> Vec<(usize, usize)> 
         from = place + 1;
     }
     found
-}
-
-/// The solution of four linear equations; 0 for unknowns that nothing depends on.
-fn solve(mut matrix: [[f64; 4]; 4], mut right: [f64; 4]) -> [f64; 4] {
-    let largest = (0..4).map(|at| matrix[at][at]).fold(0.0, f64::max);
-    for at in 0..4 {
-        // A ridge keeps two offsets that do the same from growing against each other.
-        matrix[at][at] += 1e-9 * largest + f64::MIN_POSITIVE;
-    }
-    // The matrix is symmetric and positive definite: no pivoting is needed.
-    for pivot in 0..4 {
-        for row in pivot + 1..4 {
-            let factor = matrix[row][pivot] / matrix[pivot][pivot];
-            for column in pivot..4 {
-                matrix[row][column] -= factor * matrix[pivot][column];
-            }
-            right[row] -= factor * right[pivot];
-        }
-    }
-    for pivot in (0..4).rev() {
-        for column in pivot + 1..4 {
-            right[pivot] -= matrix[pivot][column] * right[column];
-        }
-        right[pivot] /= matrix[pivot][pivot];
-    }
-    right
 }

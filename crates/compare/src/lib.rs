@@ -15,6 +15,7 @@ pub mod divergence;
 pub mod explain;
 pub mod explanation;
 pub mod fair;
+mod fair_offsets;
 pub mod fair_search;
 pub mod hypotheses;
 pub mod known;
