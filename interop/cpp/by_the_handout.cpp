@@ -14,6 +14,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "photon_dump.hpp"
@@ -49,10 +50,19 @@ struct Variant {
     // Mistakes
     bool direct_stored, no_offset, uniform_hemisphere, no_square_root, no_absolute_value, nan_frame,
         mean_roulette, red_roulette, no_roulette, transposed_frame, flipped_normal, cube_directions,
-        bounce_off_by_one;
+        bounce_off_by_one, starts_at_light, transposed_twice, unit_roulette, inverted_roulette,
+        along_normal, octant;
     // Readings
-    bool literal, threshold_08, axis_z, offset_1e_4, offset_along_direction;
+    bool literal, axis_z, first_axis_y, exchanged, u2_first, zyx;
+    float threshold, offset_normal, offset_direction, offset_back, pull_back;
 };
+
+const Variant by_default() {
+    Variant variant = Variant();
+    variant.threshold = 0.99f;
+    variant.offset_normal = 1e-5f;
+    return variant;
+}
 
 struct Choice {
     const char* name;
@@ -76,15 +86,35 @@ const Choice mistakes[] = {
     {"cube-directions", &Variant::cube_directions, "emission without the loop"},
     {"bounce-off-by-one", &Variant::bounce_off_by_one,
      "ends at 0 remaining bounces; wants a small --max-bounces"},
+    {"starts-at-light", &Variant::starts_at_light, "the scattered ray starts at the light again"},
+    {"transposed-twice", &Variant::transposed_twice, "the transposed matrix is applied twice"},
+    {"unit-roulette", &Variant::unit_roulette, "P_r is the largest channel of d / |d|"},
+    {"inverted-roulette", &Variant::inverted_roulette, "scatters where the number is above P_r"},
+    {"along-normal", &Variant::along_normal, "every photon leaves along n"},
+    {"octant", &Variant::octant, "x, y and z in [0, 1)"},
 };
 
 const Choice readings[] = {
     {"literal", &Variant::literal, "t and b as written, not normalised"},
-    {"threshold-0.8", &Variant::threshold_08, "parallel from a dot product of 0.8 on"},
     {"axis-z", &Variant::axis_z, "(0, 0, 1) where (1, 0, 0) is parallel"},
-    {"offset-1e-4", &Variant::offset_1e_4, "offset 1e-4 along n"},
-    {"offset-along-direction", &Variant::offset_along_direction,
-     "offset 1e-4 along the new direction"},
+    {"first-axis-y", &Variant::first_axis_y, "(0, 1, 0) in equation (7)"},
+    {"exchanged", &Variant::exchanged, "t and b exchanged"},
+    {"u2-first", &Variant::u2_first, "u2 is drawn before u1"},
+    {"zyx", &Variant::zyx, "z is drawn first, x last"},
+};
+
+struct Length {
+    const char* name;
+    float Variant::* length;
+    const char* what;
+};
+
+const Length lengths[] = {
+    {"--threshold", &Variant::threshold, "parallel from this dot product on (0.99)"},
+    {"--offset-normal", &Variant::offset_normal, "offset along n (1e-5)"},
+    {"--offset-direction", &Variant::offset_direction, "offset along the new direction (0)"},
+    {"--offset-back", &Variant::offset_back, "offset back along the ray that came in (0)"},
+    {"--pull-back", &Variant::pull_back, "the hit itself, pulled back along the ray (0)"},
 };
 
 // -------------------------------------------------------------------------------------------------
@@ -255,6 +285,14 @@ Vec3 random_direction(const Variant& variant) {
         x = 2.0f * random_number() - 1.0f;
         y = 2.0f * random_number() - 1.0f;
         z = 2.0f * random_number() - 1.0f;
+        if (variant.zyx) {
+            std::swap(x, z);
+        }
+        if (variant.octant) {
+            x = 0.5f * (x + 1.0f);
+            y = 0.5f * (y + 1.0f);
+            z = 0.5f * (z + 1.0f);
+        }
         squared = x * x + y * y + z * z;
     } while ((squared > 1.0f && !variant.cube_directions) || squared == 0.0f);
     return normalize(vec3(x, y, z));
@@ -263,8 +301,11 @@ Vec3 random_direction(const Variant& variant) {
 // Hemisphere Sampling
 
 Vec3 sample_hemisphere(const Variant& variant) {
-    const float u1 = random_number();
-    const float u2 = random_number();
+    float u1 = random_number();
+    float u2 = random_number();
+    if (variant.u2_first) {
+        std::swap(u1, u2);
+    }
     float r = std::sqrt(u1);
     float z = std::sqrt(1.0f - u1);
     if (variant.no_square_root) {
@@ -281,17 +322,27 @@ Vec3 sample_hemisphere(const Variant& variant) {
 // Hemisphere Ray Transformation
 
 Vec3 to_world(Vec3 local, Vec3 n, const Variant& variant) {
+    if (variant.along_normal) {
+        return n;
+    }
     const bool misses_minus_x = variant.no_absolute_value || variant.nan_frame;
-    const float closeness = misses_minus_x ? n.x : std::fabs(n.x);
-    const float threshold = variant.threshold_08 ? 0.8f : 0.99f;
-    const Vec3 fallback = variant.axis_z ? vec3(0, 0, 1) : vec3(0, 1, 0);
-    Vec3 t = cross(n, closeness > threshold ? fallback : vec3(1, 0, 0));
+    const Vec3 axis = variant.first_axis_y ? vec3(0, 1, 0) : vec3(1, 0, 0);
+    const Vec3 other = variant.first_axis_y ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const Vec3 fallback = variant.axis_z ? vec3(0, 0, 1) : other;
+    const float closeness = misses_minus_x ? dot(n, axis) : std::fabs(dot(n, axis));
+    Vec3 t = cross(n, closeness > variant.threshold ? fallback : axis);
     Vec3 b = cross(n, t);
     if (!variant.literal && !variant.no_absolute_value) {
         t = normalize(t);
         b = cross(n, t);
     }
-    if (variant.transposed_frame) {
+    if (variant.exchanged) {
+        std::swap(t, b);
+    }
+    if (variant.transposed_twice) {
+        local = vec3(dot(t, local), dot(b, local), dot(n, local));
+    }
+    if (variant.transposed_frame || variant.transposed_twice) {
         return normalize(vec3(dot(t, local), dot(b, local), dot(n, local)));
     }
     return normalize(local.x * t + local.y * b + local.z * n);
@@ -306,6 +357,9 @@ float reflection_probability(Vec3 d, const Variant& variant) {
     }
     if (variant.mean_roulette) {
         return (d.x + d.y + d.z) / 3.0f;
+    }
+    if (variant.unit_roulette) {
+        d = normalize(d);
     }
     return std::fmax(d.x, std::fmax(d.y, d.z));
 }
@@ -323,7 +377,7 @@ void trace_photon(Renderer& renderer, const Ray& ray, Vec3 intensity, std::vecto
     if (!trace(renderer.scene, ray, hit)) {
         return;
     }
-    const Vec3 point = ray.position + hit.t * ray.direction;
+    const Vec3 point = ray.position + (hit.t - variant.pull_back) * ray.direction;
     const int object = hit.triangle->object;
     if (path.size() > 1 || variant.direct_stored) {
         const Photon photon = {point, intensity, -ray.direction};
@@ -333,19 +387,19 @@ void trace_photon(Renderer& renderer, const Ray& ray, Vec3 intensity, std::vecto
 
     // Photon Scattering/Absorption
 
-    if (!(random_number() < reflection_probability(objects[object].diffuse, variant))) {
+    const bool is_below = random_number() < reflection_probability(objects[object].diffuse, variant);
+    if (is_below == variant.inverted_roulette) {
         return;
     }
     const Vec3 n = variant.flipped_normal ? -hit.triangle->normal : hit.triangle->normal;
     const Vec3 direction = to_world(sample_hemisphere(variant), n, variant);
-    Vec3 offset = (variant.offset_1e_4 ? 1e-4f : 1e-5f) * n;
-    if (variant.offset_along_direction) {
-        offset = 1e-4f * direction;
-    }
+    Vec3 offset = variant.offset_normal * n + variant.offset_direction * direction -
+                  variant.offset_back * ray.direction;
     if (variant.no_offset) {
         offset = vec3(0, 0, 0);
     }
-    const Ray scattered = {point + offset, direction};
+    const Vec3 start = variant.starts_at_light ? light_position : point + offset;
+    const Ray scattered = {start, direction};
     path.push_back('D');
     trace_photon(renderer, scattered, intensity, path, remaining_bounces - 1);
 }
@@ -363,7 +417,7 @@ struct Arguments {
 
 const char usage[] =
     "usage: by_the_handout --seed S --photons N [--out FILE.csv] [--by-surface] [--max-bounces B]\n"
-    "                      [--mistake NAME] [--reading NAME]\n";
+    "                      [--mistake NAME] [--reading NAME] [--LENGTH X]\n";
 
 void print_choices(const char* title, const Choice* begin, const Choice* end) {
     std::fprintf(stderr, "%s\n", title);
@@ -376,12 +430,26 @@ void print_usage() {
     std::fputs(usage, stderr);
     print_choices("mistakes:", std::begin(mistakes), std::end(mistakes));
     print_choices("readings:", std::begin(readings), std::end(readings));
+    std::fprintf(stderr, "lengths:\n");
+    for (const Length& length : lengths) {
+        std::fprintf(stderr, "  %-23s %s\n", length.name, length.what);
+    }
 }
 
 bool parse_number(const std::string& text, std::uint64_t largest, std::uint64_t& number) {
     std::istringstream in(text);
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos &&
            (in >> number) && number <= largest;
+}
+
+bool set_length(const std::string& name, const std::string& value, Variant& variant) {
+    for (const Length& length : lengths) {
+        if (name == length.name) {
+            std::istringstream in(value);
+            return !(in >> variant.*(length.length)).fail() && in.eof();
+        }
+    }
+    return false;
 }
 
 bool choose(const std::string& name, const Choice* begin, const Choice* end, Variant& variant) {
@@ -422,8 +490,9 @@ bool parse(int argc, char** argv, Arguments& arguments) {
             good = choose(value, std::begin(mistakes), std::end(mistakes), arguments.variant);
         } else if (option == "--reading") {
             good = choose(value, std::begin(readings), std::end(readings), arguments.variant);
-        } else {
-            std::fprintf(stderr, "by_the_handout: no option %s\n", option.c_str());
+        } else if (!set_length(option, value, arguments.variant)) {
+            std::fprintf(stderr, "by_the_handout: no option %s %s\n", option.c_str(),
+                         value.c_str());
             return false;
         }
         if (!good) {
@@ -444,6 +513,7 @@ bool parse(int argc, char** argv, Arguments& arguments) {
 int main(int argc, char** argv) {
     Arguments arguments = {};
     arguments.max_bounces = 1000;
+    arguments.variant = by_default();
     if (!parse(argc, argv, arguments)) {
         print_usage();
         return 2;

@@ -29,8 +29,8 @@ const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// The options of `compare`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 the same, bit for bit or within the tolerance; 1 different; \
-                  2 could not be read.\n\
+    after_help = "Exit codes: 0 the same: bit for bit, within the tolerance, or (without --strict) \
+                  under another fair reading of the handout; 1 different; 2 could not be read.\n\
                   Pictures count as the same when no channel of any pixel is further off than one \
                   step of 255, and every pixel has or lacks its dot in both."
 )]
@@ -46,6 +46,9 @@ pub struct CompareArgs {
     /// For lists: which part of the records may differ before the lists do
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     allow: f32,
+    /// For lists: count as different what is the same only under another fair reading of the handout
+    #[arg(long)]
+    strict: bool,
     /// For pictures: where to write the difference picture
     #[arg(long, value_name = "DIFF.png")]
     out: Option<PathBuf>,
@@ -231,5 +234,10 @@ fn finish(
     } else {
         print(text)?;
     }
-    Ok(if outcome == Outcome::Different { DIFFERENT } else { 0 })
+    let differs = match outcome {
+        Outcome::Different => true,
+        Outcome::SameUnderAnotherReading => arguments.strict,
+        Outcome::Identical | Outcome::WithinTolerance => false,
+    };
+    Ok(if differs { DIFFERENT } else { 0 })
 }

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use glam::Vec3;
 
+use super::differences::same_to_light;
 use super::position_index::{PositionIndex, is_near};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
@@ -37,7 +38,9 @@ pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) ->
     if !(reference.columns.photon && submission.columns.photon) {
         let all = |list: &PhotonList| (0..list.records.len()).collect::<Vec<_>>();
         let by_order = lists.by_order(&all(reference), &all(submission));
-        return lists.by_place(&by_order).unwrap_or(by_order);
+        let mut pairings = lists.by_place(&by_order).unwrap_or(by_order);
+        lists.uncross(&mut pairings);
+        return pairings;
     }
     let (reference_order, submission_order) = (sorted(reference), sorted(submission));
     let mut pairings = Vec::new();
@@ -170,6 +173,42 @@ impl Lists<'_> {
             None => Pairing::Missing(i),
         });
         Some(of_reference.chain(extra).collect())
+    }
+
+    /// Pairs records that lie upon each other by their directions to the light, where both lists have them.
+    fn uncross(&self, pairings: &mut [Pairing]) {
+        if !(self.reference.columns.to_light && self.submission.columns.to_light) {
+            return;
+        }
+        let fits = |i: usize, j: usize| {
+            let (a, b) = (&self.reference.records[i], &self.submission.records[j]);
+            is_near(a.position, b.position, self.tolerance) && same_to_light(a, b)
+        };
+        let crossed: Vec<_> = (0..pairings.len())
+            .filter(|at| matches!(pairings[*at], Pairing::Both(i, j) if !fits(i, j)))
+            .collect();
+        let positions: Vec<_> = crossed
+            .iter()
+            .map(|at| match pairings[*at] {
+                Pairing::Both(_, j) => self.submission.records[j].position,
+                _ => Vec3::NAN,
+            })
+            .collect();
+        let index = PositionIndex::new(&positions, self.tolerance);
+        for (at, place) in crossed.iter().enumerate() {
+            let Pairing::Both(i, j) = pairings[*place] else { continue };
+            if fits(i, j) {
+                continue;
+            }
+            for other in index.near(self.reference.records[i].position, at) {
+                let Pairing::Both(k, l) = pairings[crossed[other]] else { continue };
+                if fits(i, l) && !fits(k, l) {
+                    pairings[*place] = Pairing::Both(i, l);
+                    pairings[crossed[other]] = Pairing::Both(k, j);
+                    break;
+                }
+            }
+        }
     }
 
     fn near_pairs(&self, pairings: &[Pairing]) -> usize {

@@ -115,7 +115,8 @@ fn same_intensity(a: &PhotonRecord, b: &PhotonRecord) -> bool {
         || (a.intensity.is_nan() && b.intensity.is_nan())
 }
 
-fn same_to_light(a: &PhotonRecord, b: &PhotonRecord) -> bool {
+/// Whether two records have the same direction to the light.
+pub fn same_to_light(a: &PhotonRecord, b: &PhotonRecord) -> bool {
     a.to_light.distance(b.to_light) <= DIRECTION_TOLERANCE
         || (a.to_light.is_nan() && b.to_light.is_nan())
 }

@@ -7,11 +7,12 @@ use serde::Serialize;
 use super::alignment::Pairing;
 use super::differences::Difference;
 use super::numbers::thousands;
+use super::position_index::is_near;
 use super::verdict::{Observation, Verdict, judge};
-use crate::explain::{Ending, Hit, Story, explain, vector};
+use crate::explain::{Ending, Hit, Story, vector};
+use crate::known::Known;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::run::Run;
 use variants::section::Section;
 
 /// So many differing photons are asked when the first one does not tell the section by itself.
@@ -51,16 +52,19 @@ pub struct Lists<'lists> {
     pub pairings: &'lists [Pairing],
     /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
+    /// Whether the submission's directions to the light are what they should be where it stores what the
+    /// reference stores.
+    pub has_true_to_light: bool,
 }
 
 impl Lists<'_> {
     /// Describes the first of `differing`, which must not be empty; differences of place come
     /// first, since another intensity or direction to the light is often the same for all records.
-    /// With the reference's `run`, also names the section.
+    /// With the reference's run, `known`, also names the section.
     pub fn first_divergence(
         &self,
         differing: &[(Pairing, Difference)],
-        run: Option<&Run>,
+        known: Option<&Known>,
     ) -> Divergence {
         let in_place = differing.iter().find(|(_, difference)| *difference == Difference::Place);
         let (pairing, difference) = *in_place.unwrap_or(&differing[0]);
@@ -68,21 +72,21 @@ impl Lists<'_> {
             return self.wrong_value(pairing, difference);
         }
         let (mut photon, mut bounce) = self.identity(pairing);
-        let found = run
+        let found = known
             .filter(|_| photon.is_none() && self.reference.columns.photon)
-            .and_then(|run| self.photon_of_extra(pairing, run));
+            .and_then(|known| self.photon_of_extra(pairing, known));
         if let Some((found_photon, found_bounce, _)) = &found {
             (photon, bounce) = (Some(*found_photon), Some(*found_bounce));
         }
-        let story = photon.zip(run).and_then(|(photon, run)| explain(run, photon));
+        let story = photon.zip(known).and_then(|(photon, known)| known.story(photon));
         let record = self.submission_record(pairing);
         let places = differing
             .iter()
             .filter(|(_, difference)| *difference == Difference::Place)
             .map(|(pairing, _)| *pairing);
-        let Some((story, run)) = story.zip(run) else {
-            let verdict =
-                run.and_then(|run| self.majority(places, run).or_else(|| only_extra(differing)));
+        let Some((story, known)) = story.zip(known) else {
+            let verdict = known
+                .and_then(|known| self.majority(places, known).or_else(|| only_extra(differing)));
             return Divergence {
                 photon,
                 bounce,
@@ -100,12 +104,12 @@ impl Lists<'_> {
             differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Missing(_)));
         let first = match found {
             Some((_, _, verdict)) => Some(verdict),
-            None => self.judge(pairing, &story, run),
+            None => self.judge(pairing, &story, known),
         };
         let is_known = self.submission.columns.photon || matches!(pairing, Pairing::Extra(_));
         let verdict = match first {
             Some(first) if first.is_certain && is_known => Some(first),
-            first => self.majority(places, run).or(first),
+            first => self.majority(places, known).or(first),
         };
         Divergence {
             photon,
@@ -131,7 +135,9 @@ impl Lists<'_> {
             }
         };
         let reason = match difference {
-            Difference::Intensity => "intensity is the light's colour by the photons it sends out",
+            Difference::Intensity => {
+                "intensity is the light's colour divided by the photons it emits"
+            }
             _ => "to_light is the opposite of the photon ray's direction",
         };
         Divergence {
@@ -159,6 +165,12 @@ impl Lists<'_> {
         }
     }
 
+    /// Whether both lists have a record, in the same place.
+    pub fn is_matched(&self, pairing: Pairing) -> bool {
+        let records = self.reference_record(pairing).zip(self.submission_record(pairing));
+        records.is_some_and(|(a, b)| is_near(a.position, b.position, self.tolerance))
+    }
+
     /// Photon and bounce of a difference, as far as the lists tell.
     pub fn identity(&self, pairing: Pairing) -> (Option<u64>, Option<usize>) {
         let of = |list: &PhotonList, record: Option<&PhotonRecord>| {
@@ -172,22 +184,34 @@ impl Lists<'_> {
         (reference.0.or(submission.0), reference.1.or(submission.1))
     }
 
-    fn judge(&self, pairing: Pairing, story: &Story, run: &Run) -> Option<Verdict> {
+    fn judge(&self, pairing: Pairing, story: &Story, known: &Known) -> Option<Verdict> {
         let (_, bounce) = self.identity(pairing);
-        Some(judge(&Observation {
+        let is_same_photon = self.submission.columns.photon;
+        Some(judge(&self.observation(pairing, story, bounce?, is_same_photon, known)))
+    }
+
+    fn observation<'run>(
+        &'run self,
+        pairing: Pairing,
+        story: &'run Story,
+        bounce: usize,
+        is_same_photon: bool,
+        known: &'run Known,
+    ) -> Observation<'run> {
+        Observation {
             story,
-            bounce: bounce?,
+            bounce,
             submission: self.submission_record(pairing),
-            is_same_photon: self.submission.columns.photon,
-            max_bounces: run.renderer.max_photon_bounces,
+            is_same_photon,
+            has_true_to_light: self.has_true_to_light,
+            known,
             tolerance: self.tolerance,
-        }))
+        }
     }
 
     /// The photon and bounce to which an extra record belongs whose list does not tell it: that of
     /// the photons next to it whose path explains it.
-    fn photon_of_extra(&self, extra: Pairing, run: &Run) -> Option<(u64, usize, Verdict)> {
-        let submission = self.submission_record(extra);
+    fn photon_of_extra(&self, extra: Pairing, known: &Known) -> Option<(u64, usize, Verdict)> {
         let at = self.pairings.iter().position(|pairing| *pairing == extra)?;
         let photon_of = |pairing: &Pairing| {
             self.reference_record(*pairing).map(|record| u64::from(record.photon))
@@ -195,16 +219,9 @@ impl Lists<'_> {
         let before = self.pairings[..at].iter().rev().find_map(photon_of).unwrap_or(0);
         let after = self.pairings[at..].iter().find_map(photon_of);
         let after = after.unwrap_or(before + MOST_NEIGHBOURS).min(before + MOST_NEIGHBOURS);
-        (before..=after).filter_map(|photon| explain(run, photon)).find_map(|story| {
+        (before..=after).filter_map(|photon| known.story(photon)).find_map(|story| {
             (1..=story.hits.len()).find_map(|bounce| {
-                let verdict = judge(&Observation {
-                    story: &story,
-                    bounce,
-                    submission,
-                    is_same_photon: false,
-                    max_bounces: run.renderer.max_photon_bounces,
-                    tolerance: self.tolerance,
-                });
+                let verdict = judge(&self.observation(extra, &story, bounce, false, known));
                 verdict.is_certain.then_some((story.photon, bounce, verdict))
             })
         })
@@ -212,7 +229,7 @@ impl Lists<'_> {
 
     /// The verdict of most of the photons that differ: of those that leave no doubt, if there are
     /// any, else of all. Of each photon, only the first difference says anything.
-    fn majority(&self, differing: impl Iterator<Item = Pairing>, run: &Run) -> Option<Verdict> {
+    fn majority(&self, differing: impl Iterator<Item = Pairing>, known: &Known) -> Option<Verdict> {
         let mut votes: BTreeMap<(bool, Section), (usize, Verdict)> = BTreeMap::new();
         let mut last = None;
         for pairing in differing {
@@ -221,7 +238,7 @@ impl Lists<'_> {
                 continue;
             }
             last = Some(photon);
-            let verdict = explain(run, photon).and_then(|story| self.judge(pairing, &story, run));
+            let verdict = known.story(photon).and_then(|story| self.judge(pairing, &story, known));
             if let Some(mut verdict) = verdict {
                 if verdict.is_certain {
                     let photon = thousands(photon);
@@ -234,9 +251,16 @@ impl Lists<'_> {
                 break;
             }
         }
-        let most =
-            votes.into_iter().max_by_key(|((is_certain, _), (count, _))| (*is_certain, *count));
-        most.map(|(_, (_, verdict))| verdict)
+        let all: usize = votes.values().map(|(count, _)| count).sum();
+        let is_known = self.submission.columns.photon;
+        let most = votes.into_iter().max_by_key(|((is_certain, _), (count, _))| {
+            // Where a list does not tell its photons, a few fit something by chance.
+            (*is_certain && (is_known || 10 * count > all), *count)
+        });
+        most.map(|(_, (count, verdict))| {
+            let is_certain = verdict.is_certain && (is_known || 10 * count > all);
+            Verdict { is_certain, ..verdict }
+        })
     }
 }
 

@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 use std::fmt::Write as _;
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use serde::Serialize;
 
 use photon_mapping::random::photon_random;
@@ -118,7 +118,17 @@ pub fn explain(run: &Run, photon: u64) -> Option<Story> {
     });
     let hits: Vec<_> = states
         .enumerate()
-        .map(|(bounce, state)| hit(run, bounce, state, &mut path_draws))
+        .map(|(bounce, state)| {
+            let mut next = || path_draws.next().expect("every hit draws its numbers");
+            let roulette = next();
+            let scattered = roulette < survival(run, state);
+            let sample = scattered.then(|| {
+                let (u1, u2) = (next(), next());
+                let frame = run.reading.tangent_frame(state.compute_normal(run.scene()));
+                Sample { u1, u2, frame, local: sample_hemisphere(u1, u2) }
+            });
+            hit(run, bounce, state, roulette, sample)
+        })
         .collect();
     let ending = match hits.last() {
         Some(last) if !last.scattered => Ending::Absorbed,
@@ -144,34 +154,45 @@ pub fn first_that_stores(run: &Run, start: u64, stored: usize) -> Option<u64> {
 }
 
 /// The index of the light that emits `photon`, the light, and how many photons it emits.
-fn light_of(run: &Run, photon: u64) -> Option<(usize, &PointLight, u64)> {
+pub(crate) fn light_of(run: &Run, photon: u64) -> Option<(usize, &PointLight, u64)> {
     let lights = run.scene().lights().iter().zip(run.renderer.photons_of_lights());
     let mut lights = lights.enumerate();
     let (index, (light, photons)) = lights.find(|(_, (_, photons))| photons.contains(&photon))?;
     Some((index, light, photons.end - photons.start))
 }
 
-/// The hit `state`, to which the next of `draws` belong: one for the roulette, two more if the
-/// photon scatters.
-fn hit(
+/// How a photon leaves a hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample {
+    /// The first number of the hemisphere sample.
+    pub u1: f32,
+    /// The second one.
+    pub u2: f32,
+    /// From tangent space to world space.
+    pub frame: Mat3,
+    /// The direction in tangent space.
+    pub local: Vec3,
+}
+
+/// P_r at the hit `state`.
+pub(crate) fn survival(run: &Run, state: &IntersectionState) -> f32 {
+    let scene = run.scene();
+    let mesh_object = &scene.mesh_objects()[state.primitive(scene).parent_mesh_object];
+    mesh_object.material.base_diffuse_reflection().max_element()
+}
+
+/// The hit `state`, which the number `roulette` decides; with `sample` the photon scatters.
+pub(crate) fn hit(
     run: &Run,
     bounce: usize,
     state: &IntersectionState,
-    draws: &mut impl Iterator<Item = f32>,
+    roulette: f32,
+    sample: Option<Sample>,
 ) -> Hit {
     let scene = run.scene();
     let triangle = state.primitive(scene);
     let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
-    let survival = mesh_object.material.base_diffuse_reflection().max_element();
-    let normal = state.compute_normal(scene);
-    let mut next = || draws.next().expect("every hit draws its numbers");
-    let roulette = next();
-    let scattered = roulette < survival;
-    let sample = scattered.then(|| (next(), next()));
-    let frame = scattered.then(|| run.reading.tangent_frame(normal));
-    let direction = sample
-        .zip(frame)
-        .map(|((u1, u2), frame)| (frame * sample_hemisphere(u1, u2)).normalize().to_array());
+    let direction = sample.map(|sample| (sample.frame * sample.local).normalize().to_array());
     let world = &run.placement;
     Hit {
         bounce,
@@ -180,16 +201,16 @@ fn hit(
         facet: triangle.facet,
         t: world.length_to_world(state.intersection_t),
         position: world.to_world(state.intersection_point()).to_array(),
-        normal: normal.to_array(),
+        normal: state.compute_normal(scene).to_array(),
         roulette,
-        survival,
-        scattered,
+        survival: survival(run, state),
+        scattered: sample.is_some(),
         stored: bounce > 0,
         why: if bounce > 0 { "it has bounced" } else { "it comes straight from the light" },
-        u1: sample.map(|(u1, _)| u1),
-        u2: sample.map(|(_, u2)| u2),
-        tangent: frame.map(|frame| frame.x_axis.to_array()),
-        bitangent: frame.map(|frame| frame.y_axis.to_array()),
+        u1: sample.map(|sample| sample.u1),
+        u2: sample.map(|sample| sample.u2),
+        tangent: sample.map(|sample| sample.frame.x_axis.to_array()),
+        bitangent: sample.map(|sample| sample.frame.y_axis.to_array()),
         direction,
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+use super::fair::{Taken, Tries};
 use photon_mapping::rendering::sampling::sample_hemisphere;
 use variants::section::Section;
 
@@ -28,6 +29,12 @@ pub fn hypotheses(
             transformation,
             "the matrix is transposed: t, b and n are its rows",
             frame.transpose() * local,
+        ),
+        (transformation, "the matrix is applied twice", frame * (frame * local)),
+        (
+            transformation,
+            "the transposed matrix is applied twice",
+            frame.transpose() * (frame.transpose() * local),
         ),
         (transformation, "the normal points to the other side", Mat3::from_cols(-t, b, -n) * local),
         (transformation, "the photon leaves below the surface", Mat3::from_cols(t, b, -n) * local),
@@ -60,4 +67,24 @@ pub fn hypotheses(
         }
     }
     all
+}
+
+/// What students do instead of drawing from the ball.
+pub fn other_emissions(fair: Tries) -> [(Tries, &'static str); 4] {
+    let all = Taken::All;
+    [
+        (
+            Tries { taken: all, ..fair },
+            "the first try is taken, though it may lie outside the sphere",
+        ),
+        (Tries { unscaled: true, ..fair }, "x, y and z lie in [0, 1), not in [-1, 1)"),
+        (
+            Tries { taken: all, unscaled: true, ..fair },
+            "x, y and z lie in [0, 1), and the first try is taken",
+        ),
+        (
+            Tries { taken: Taken::Outside, ..fair },
+            "tries inside the sphere are rejected, and those outside are taken",
+        ),
+    ]
 }

@@ -2,19 +2,27 @@
 //!
 //! [`alignment`] pairs the records, [`differences`] counts what the pairs differ in, [`divergence`]
 //! picks the first difference and asks [`verdict`] which [section](variants::section) of the handout it belongs to,
-//! which in turn tries the [`hypotheses`] of what students do instead; [`whole`] looks at all differences together. [`readings`] tries whether
-//! another fair reading of the handout explains the differences. [`report`] puts it together;
-//! [`pictures`] compares pictures instead.
+//! which in turn tries the [`hypotheses`] of what students do instead; [`whole`] looks at all differences together. [`fair_search`] tries whether
+//! another [`fair`] way explains the differences, so that [`divergence`] looks at what is left of them.
+//! [`conventions`] undoes other axes and numbers first, and [`numbering`] finds the photons of lists that do
+//! not tell them. [`report`] puts it together; [`pictures`] compares
+//! pictures instead.
 
 pub mod alignment;
+pub mod conventions;
 pub mod differences;
 pub mod divergence;
 pub mod explain;
+pub mod explanation;
+pub mod fair;
+mod fair_offsets;
+pub mod fair_search;
 pub mod hypotheses;
+pub mod known;
+pub mod numbering;
 pub mod numbers;
 pub mod pictures;
 pub mod position_index;
-pub mod readings;
 pub mod report;
 mod text;
 pub mod verdict;

@@ -90,7 +90,7 @@ impl PictureReport {
         let word = match self.outcome {
             Outcome::Identical => return format!("identical: {width} x {height} pixels\n"),
             Outcome::WithinTolerance => "the same within one step of 255",
-            Outcome::Different => "different",
+            _ => "different",
         };
         let numbers = self.differing_pixels.zip(self.largest_difference);
         let dots = self.dots_missing.zip(self.dots_extra);

@@ -26,6 +26,7 @@ impl Report {
                 let tolerance = short(self.tolerance);
                 return format!("the same within {tolerance}: {matched} {word}\n") + &self.notes();
             }
+            Outcome::SameUnderAnotherReading => return self.other_reading(),
             Outcome::WithinTolerance | Outcome::Different => {}
         }
         let word = match self.outcome {
@@ -42,13 +43,32 @@ impl Report {
         if let Some(divergence) = &self.first_divergence {
             text += &divergence.text();
         }
-        if let (Some(reading), Some(matched), Some(tried)) =
-            (&self.reading, self.reading_matched, self.reading_tried)
-        {
+        if let (Some(reading), Some(left)) = (&self.reading, self.reading_left) {
             text += &format!(
-                "\nexplained by another reading of the handout: {reading}\n  {matched} of {tried} \
-                 photons that differ match when traced again with it\n"
+                "\nbesides, another fair reading of the handout: {reading}\n  this is no mistake; \
+                 the divergence above is one of {} records that differ even so\n",
+                thousands(left)
             );
+        }
+        text + &self.notes()
+    }
+
+    fn other_reading(&self) -> String {
+        let reading = self.reading.as_deref().unwrap_or_default();
+        let left = self.reading_left.unwrap_or_default();
+        let mut text = format!("the same under another fair reading: {reading}\n");
+        text += &format!(
+            "  the reference has {} records, the submission {}\n",
+            thousands(self.reference_records),
+            thousands(self.submission_records),
+        );
+        text += &counts(&self.differences, self.tolerance);
+        if let (Some(matched), Some(tried)) = (self.reading_matched, self.reading_tried) {
+            text += &format!("under this reading, {matched} of {tried} photons that differ match");
+            text += &match left {
+                0 => ", and no record differs\n".to_owned(),
+                left => format!("; {} records still differ, near edges\n", thousands(left)),
+            };
         }
         text + &self.notes()
     }

@@ -2,9 +2,13 @@
 
 use glam::{Mat3, Vec3};
 
-use super::hypotheses::hypotheses;
+use super::fair::Fair;
+use super::fair_search::LONGEST_OFFSET;
+use super::hypotheses::{hypotheses, other_emissions};
+use super::known::Known;
 use super::position_index::is_near;
 use crate::explain::{Ending, Hit, Story};
+use crate::report::scene_size;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::sampling::sample_hemisphere;
 use variants::section::Section;
@@ -31,8 +35,10 @@ pub struct Observation<'run> {
     pub submission: Option<&'run PhotonRecord>,
     /// Whether the record is known to be this photon's; otherwise it only stands in its place.
     pub is_same_photon: bool,
-    /// How often the reference's photons may bounce.
-    pub max_bounces: i32,
+    /// Whether the submission's directions to the light can be trusted.
+    pub has_true_to_light: bool,
+    /// The reference's run.
+    pub known: &'run Known<'run>,
     /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
 }
@@ -50,6 +56,23 @@ impl Observation<'_> {
     fn sure(&self, section: Section, reason: impl Into<String>) -> Verdict {
         Verdict { section, reason: reason.into(), is_certain: self.is_same_photon }
     }
+
+    /// How far the start of a ray may be from the hit, in world units.
+    fn reach(&self) -> f32 {
+        let run = self.known.run;
+        LONGEST_OFFSET * run.placement.length_to_world(scene_size(run.scene()))
+            + 20.0 * self.tolerance
+    }
+
+    /// Points from which rays start where it is forgotten to set their position.
+    fn forgotten_starts(&self) -> [(Vec3, &'static str); 2] {
+        let run = self.known.run;
+        let light = run.scene().lights()[self.story.emission.light].position;
+        [
+            (run.placement.to_world(light), "the scattered ray starts at the light again"),
+            (Vec3::ZERO, "the scattered ray starts at (0, 0, 0)"),
+        ]
+    }
 }
 
 /// Names the section in which the submission did something else than the reference.
@@ -59,32 +82,38 @@ pub fn judge(observation: &Observation) -> Verdict {
         return judge_missing(observation);
     };
     let Some(first) = story.hits.first() else {
-        return observation.sure(Section::PhotonEmission, other_emission(story));
+        return judge_emission(observation, true);
     };
     // Where lists number bounces in different ways, the path may be shorter than the number says.
     let previous = &story.hits[bounce.clamp(1, story.hits.len()) - 1];
     if !record.position.is_finite() {
         return judge_not_finite(previous);
     }
-    let to_light = unit(record.to_light);
+    let to_light = unit(record.to_light).filter(|_| observation.has_true_to_light);
     if is_near(record.position, first.point(), tolerance) {
         let emission = Vec3::from_array(story.emission.direction);
         let comes_from_light = to_light.map(|to_light| to_light.dot(emission).abs() > 0.9999);
         let reason = "the hit straight from the light is stored";
         return match comes_from_light {
-            Some(false) => judge_same_place(first),
+            Some(false) => judge_same_place(observation, first, to_light),
             Some(true) => certain(Section::PhotonStorage, reason),
             None if !first.scattered => certain(Section::PhotonStorage, reason),
             // Were direct hits stored, others would show it without doubt.
-            None => Verdict { is_certain: false, ..judge_same_place(first) },
+            None => Verdict { is_certain: false, ..judge_same_place(observation, first, None) },
         };
     }
     if is_near(record.position, previous.point(), tolerance) && previous.scattered {
-        return judge_same_place(previous);
+        return judge_same_place(observation, previous, to_light);
     }
     let way = record.position - previous.point();
-    let comes_from_previous =
-        to_light.map(|to_light| way.cross(to_light).length()).map(|aside| aside < 20.0 * tolerance);
+    let passes = |start: Vec3| {
+        let way = record.position - start;
+        to_light.map(|to_light| way.cross(to_light).length() < observation.reach())
+    };
+    let comes_from_previous = passes(previous.point());
+    if let Some(reason) = forgotten_start(observation, previous, comes_from_previous, &passes) {
+        return certain(Section::HemisphereRayTransformation, reason);
+    }
     if comes_from_previous == Some(false) {
         return judge_other_origin(observation);
     }
@@ -99,16 +128,40 @@ pub fn judge(observation: &Observation) -> Verdict {
             .sure(Section::PhotonStorage, "the path goes on beyond the last bounce allowed");
     }
     judge_direction(observation, previous, way).unwrap_or_else(|| {
-        if bounce == 1 && comes_from_previous.is_none() {
-            guess(Section::PhotonEmission, "the photon may have hit another place first")
-        } else {
+        let emission = (bounce == 1 && comes_from_previous.is_none())
+            .then(|| known_emission(observation))
+            .flatten();
+        emission.unwrap_or_else(|| {
             guess(Section::HemisphereSampling, "the photon scatters in another direction")
-        }
+        })
+    })
+}
+
+/// Where the scattered ray starts if its position was not set: seen by where it points to, or by where it
+/// goes.
+fn forgotten_start(
+    observation: &Observation,
+    previous: &Hit,
+    comes_from_previous: Option<bool>,
+    passes: &dyn Fn(Vec3) -> Option<bool>,
+) -> Option<&'static str> {
+    let record = observation.submission?;
+    observation.forgotten_starts().into_iter().find_map(|(start, reason)| {
+        let is_start = match comes_from_previous {
+            Some(true) => false,
+            Some(false) => observation.bounce == 1 && passes(start) == Some(true),
+            None => previous.direction.is_some_and(|direction| {
+                let way = (record.position - start).normalize_or_zero();
+                way.distance(Vec3::from_array(direction)) < 2e-3
+            }),
+        };
+        is_start.then_some(reason)
     })
 }
 
 fn judge_missing(observation: &Observation) -> Verdict {
-    if observation.bounce as i64 == i64::from(observation.max_bounces) {
+    let max_bounces = observation.known.run.renderer.max_photon_bounces;
+    if observation.bounce as i64 == i64::from(max_bounces) {
         return guess(
             Section::PhotonStorage,
             "nothing is stored at the last bounce allowed: the path ends only when \
@@ -134,7 +187,16 @@ fn judge_not_finite(previous: &Hit) -> Verdict {
     guess(section, "the submission's position is not a number")
 }
 
-fn judge_same_place(hit: &Hit) -> Verdict {
+/// Judges a photon that met the surface at `hit` again as soon as it left.
+fn judge_same_place(observation: &Observation, hit: &Hit, to_light: Option<Vec3>) -> Verdict {
+    let below = to_light.map(|to_light| -to_light);
+    if let Some(down) = below.filter(|down| down.dot(Vec3::from_array(hit.normal)) < -1e-3) {
+        let known = judge_direction(observation, hit, down);
+        return known.unwrap_or_else(|| {
+            let reason = "the photon leaves below the surface";
+            observation.sure(Section::HemisphereRayTransformation, reason)
+        });
+    }
     let reason = format!(
         "the scattered ray met the surface it left ({}): it must start off the surface",
         hit.surface
@@ -147,16 +209,40 @@ fn judge_other_origin(observation: &Observation) -> Verdict {
     if observation.bounce > 1 {
         return guess(Section::PhotonStorage, "to_light does not point to the hit before");
     }
-    observation.sure(Section::PhotonEmission, other_emission(observation.story))
+    if !observation.is_same_photon {
+        return guess(Section::HemisphereSampling, "the photon comes from elsewhere");
+    }
+    judge_emission(observation, false)
 }
 
-fn other_emission(story: &Story) -> String {
-    let draws = match story.emission.tries.len() - 1 {
+/// Judges a photon that left the light in another direction; `is_sure` if nothing else can explain it.
+fn judge_emission(observation: &Observation, is_sure: bool) -> Verdict {
+    if let Some(known) = known_emission(observation) {
+        return known;
+    }
+    let draws = match observation.story.emission.tries.len() - 1 {
         0 => "at the first try".to_owned(),
         1 => "after a rejected try".to_owned(),
         rejected => format!("after {rejected} rejected tries"),
     };
-    format!("the photon left the light in another direction than the one taken {draws}")
+    let reason =
+        format!("the photon left the light in another direction than the one taken {draws}");
+    let is_certain = is_sure && observation.is_same_photon;
+    Verdict { section: Section::PhotonEmission, reason, is_certain }
+}
+
+/// The misreading of the emission under which the photon is stored just where the submission has it.
+fn known_emission(observation: &Observation) -> Option<Verdict> {
+    let record = observation.submission?;
+    let known = observation.known;
+    let fair = known.fair()?;
+    other_emissions(fair.tries).into_iter().find_map(|(tries, reason)| {
+        let other = Fair { tries, ..fair };
+        let story = other.story(known.run, observation.story.photon)?;
+        let position = *other.stored(&story).first()?;
+        is_near(position, record.position, observation.tolerance)
+            .then(|| certain(Section::PhotonEmission, reason))
+    })
 }
 
 /// Judges the direction `way`, of any length, in which the submission's photon left `hit`.
@@ -171,7 +257,8 @@ fn judge_direction(observation: &Observation, hit: &Hit, way: Vec3) -> Option<Ve
         return None;
     }
     // The start of the ray may be off the hit by the offset, and the end by rounding.
-    let allowed = 1e-3 + 2.0 * tolerance / way.length();
+    let offset = observation.known.fair.map_or(0.0, |fair| fair.start.length());
+    let allowed = 1e-3 + (2.0 * tolerance + offset) / way.length();
     let direction = way.normalize();
     if direction.distance(Vec3::from_array(expected)) < allowed {
         let reason = "the direction is right, but the scattered ray starts elsewhere";

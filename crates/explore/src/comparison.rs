@@ -230,6 +230,7 @@ impl Comparison {
         let same = match outcome {
             Outcome::Identical => Some("identical"),
             Outcome::WithinTolerance => Some("the same within the tolerance"),
+            Outcome::SameUnderAnotherReading => Some("the same under another fair reading"),
             Outcome::Different => None,
         };
         let verdict = match (same, self.section()) {

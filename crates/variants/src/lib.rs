@@ -2,6 +2,7 @@
 //!
 //! [`run::Run`] is what the toolkit traces. Where it is the reference, the port or the fast path does it.
 
+pub mod frame;
 pub mod hypotheses;
 pub mod pairs;
 pub mod reading;
