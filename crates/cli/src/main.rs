@@ -8,6 +8,7 @@ mod expect;
 mod explain;
 mod explore;
 mod grade;
+mod kit;
 mod merge;
 mod output;
 mod progress;
@@ -60,6 +61,8 @@ enum Command {
     Merge(merge::MergeArgs),
     /// Measure speed and accuracy, and write a page with plots and data
     Report(report::ReportArgs),
+    /// Write a folder for a course: a project for students
+    Kit(kit::KitArgs),
 }
 
 fn main() -> ExitCode {
@@ -93,6 +96,7 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
+        Some(Command::Kit(arguments)) => kit::run(&arguments),
     };
     match result {
         Ok(code) => code,
