@@ -132,16 +132,20 @@ fn nothing_gives_the_answer_away() {
     let starter = edition(folder.path());
     let mut files = Vec::new();
     gather(&starter, &mut files);
+    let is_test = |path: &&PathBuf| path.starts_with(starter.join("tests"));
     let texts: Vec<(PathBuf, String)> = files
         .iter()
+        .filter(|path| !is_test(path))
         .filter_map(|path| Some((path.clone(), fs::read_to_string(path).ok()?)))
         .collect();
+    // The framework's own code says how a material is found and how a ray is made.
+    let given = port("src/rendering/backward_renderer.rs") + &port("src/scene/camera.rs");
     let mut seen = 0;
     for (section, file, _) in SECTIONS {
         for line in fill(&starter, section, file) {
             let line = line.trim();
             // Ends of blocks and the like tell nothing.
-            if line.len() < 20 {
+            if line.len() < 20 || given.contains(line) {
                 continue;
             }
             seen += 1;

@@ -1,5 +1,6 @@
 //! `photon-mapping kit`: folders that a course takes over as they are.
 
+mod gradescope;
 mod lock;
 mod student;
 
@@ -24,6 +25,9 @@ enum Kit {
 Example: photon-mapping kit student --out starter/
 Then, in starter/: cargo test names what is left to write, cargo run --release draws the picture.")]
     Student(OutArgs),
+    /// An autograder for Gradescope: zip the folder's files and upload them
+    #[command(after_help = "Example: photon-mapping kit gradescope --out kit/")]
+    Gradescope(OutArgs),
 }
 
 #[derive(Debug, Args)]
@@ -38,11 +42,16 @@ struct KitFile {
     /// Its place in the kit, with slashes.
     path: String,
     content: Vec<u8>,
+    is_executable: bool,
 }
 
 impl KitFile {
     fn new(path: &str, content: impl Into<Vec<u8>>) -> Self {
-        Self { path: path.to_owned(), content: content.into() }
+        Self { path: path.to_owned(), content: content.into(), is_executable: false }
+    }
+
+    fn executable(path: &str, content: impl Into<Vec<u8>>) -> Self {
+        Self { is_executable: true, ..Self::new(path, content) }
     }
 }
 
@@ -51,11 +60,13 @@ impl KitFile {
 /// # Errors
 /// When the folder has files already or cannot be written.
 pub fn run(arguments: &KitArgs) -> Result<u8, CliError> {
-    let (out, files) = match &arguments.kit {
-        Kit::Student(to) => (&to.out, student::files()),
+    let (out, files, advice) = match &arguments.kit {
+        Kit::Student(to) => (&to.out, student::files(), ""),
+        Kit::Gradescope(to) => (&to.out, gradescope::files()?, gradescope::advice()),
     };
     write(out, &files)?;
-    print(&format!("{}: {} files; start with README.md\n", out.display(), files.len()))?;
+    let count = files.len();
+    print(&format!("{}: {count} files; start with README.md\n{advice}", out.display()))?;
     Ok(0)
 }
 
@@ -69,11 +80,16 @@ fn write(out: &Path, files: &[KitFile]) -> Result<(), CliError> {
         let message = format!("--out {}: expected a new or empty folder", out.display());
         return Err(CliError::Argument(format!("{message}, found files in it")));
     }
-    for KitFile { path, content } in files {
+    for KitFile { path, content, is_executable } in files {
         let path = out.join(path);
         let folder = path.parent().unwrap_or(out);
         fs::create_dir_all(folder).map_err(unwritable(folder))?;
         fs::write(&path, content).map_err(unwritable(&path))?;
+        #[cfg(unix)]
+        if *is_executable {
+            let executable = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+            fs::set_permissions(&path, executable).map_err(unwritable(&path))?;
+        }
     }
     Ok(())
 }
