@@ -9,3 +9,5 @@ pub mod photon_list;
 pub mod random;
 pub mod rendering;
 pub mod scene;
+
+pub use photon_list::trace;

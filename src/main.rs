@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{}", table(&renderer, &list));
     println!("photon list SHA-256 {}", hash.hex());
     println!("written: {}, {}", picture_path.display(), list_path.display());
-    println!("\nCompare, explain, grade: cargo run --release -p photon-mapping-toolkit -- --help");
+    println!("\nTo compare, explain and grade, use the toolkit: photon-mapping --help");
     Ok(())
 }
 

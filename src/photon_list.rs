@@ -101,7 +101,7 @@ pub fn records<'a>(
 /// The list of the handout's scene with `seed` and `emitted` photons.
 ///
 /// ```
-/// let list = photon_mapping::photon_list::trace(148, 1000);
+/// let list = photon_mapping::trace(148, 1000);
 /// assert_eq!((list[0].photon, list[0].bounce), (73, 1));
 /// ```
 pub fn trace(seed: u64, emitted: u64) -> Vec<PhotonRecord> {

@@ -7,7 +7,7 @@ copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 export CARGO_TARGET_DIR="$root/target/mutations"
 
-cp -r "$root"/{Cargo.lock,src,tests,golden} "$copy"
+cp -r "$root"/{Cargo.lock,build.rs,src,tests,golden} "$copy"
 # The root package alone: no workspace members.
 sed 's/^members = .*/members = []/; /path = "crates\//d' "$root/Cargo.toml" >"$copy/Cargo.toml"
 mkdir -p "$copy/examples"

@@ -10,8 +10,7 @@ use std::{env, fs};
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=src/steps.rs");
-    let root =
-        PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo")).join("../..");
+    let root = PathBuf::from(env::var_os("DEP_PHOTON_MAPPING_ROOT").expect("set by the port"));
     let read = |file: &str| {
         let path = root.join(file);
         println!("cargo::rerun-if-changed={}", path.display());

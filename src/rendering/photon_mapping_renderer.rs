@@ -110,11 +110,12 @@ impl PhotonMappingRenderer {
         remaining_bounces: i32,
         rand: &mut impl FnMut() -> f32,
     ) {
+        let mut state = IntersectionState::new();
+
         // Photon Storage
         if remaining_bounces < 0 {
             return;
         }
-        let mut state = IntersectionState::new();
         if !self.stored_scene.trace(photon_ray, Some(&mut state)) {
             return;
         }

@@ -9,6 +9,7 @@ pub const CLOSE_TO_PARALLEL: f32 = 0.99;
 /// A unit direction over the z axis, distributed as the cosine of its angle to z (density z / pi
 /// over solid angle), from two numbers in [0, 1). Tangent space; equations (2) to (6).
 pub fn sample_hemisphere(u1: f32, u2: f32) -> Vec3 {
+    // Hemisphere Sampling
     let r = u1.sqrt();
     let theta = 2.0 * std::f32::consts::PI * u2;
     let x = r * libm::cosf(theta);
@@ -22,6 +23,7 @@ pub fn sample_hemisphere(u1: f32, u2: f32) -> Vec3 {
 ///
 /// The columns are orthonormal, and t x b = n: the frame is right-handed.
 pub fn tangent_frame(normal: Vec3) -> Mat3 {
+    // Hemisphere Ray Transformation
     // The right wall's normal is (-1, 0, 0), and its dot product with the x axis is -1. Without the
     // absolute value, t and b would be zero there.
     let is_parallel = normal.dot(Vec3::X).abs() > CLOSE_TO_PARALLEL;

@@ -1,15 +1,17 @@
 //! Scenes, scripted random numbers and strategies that several tests use.
 #![allow(dead_code, reason = "no test uses all of them")]
 
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
 use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::{ListHash, PhotonRecord, records};
-use photon_mapping::random::photon_random;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PathVertex, Photon, PhotonMappingRenderer,
 };
 use photon_mapping::scene::point_light::PointLight;
-use photon_mapping::scene::ray::Ray;
+use photon_mapping::scene::ray::{IntersectionState, Ray};
 use photon_mapping::scene::triangle::Triangle;
 use photon_mapping::scene::{Material, MeshObject, Scene};
 use proptest::prelude::*;
@@ -97,20 +99,63 @@ pub fn hash(list: &[PhotonRecord]) -> String {
     hash.hex()
 }
 
-/// What `trace_photon` stores of a photon on `ray` that has passed `path` and then draws `numbers`.
-/// The photon may draw no more numbers than these.
+/// The handout's sections, in its order.
+pub const SECTIONS: [&str; 5] = [
+    "Photon Emission",
+    "Photon Storage",
+    "Photon Scattering/Absorption",
+    "Hemisphere Sampling",
+    "Hemisphere Ray Transformation",
+];
+
+/// A path of a photon that has hit one surface.
+pub fn path_of_one_hit() -> Vec<PathVertex> {
+    vec![PathVertex::Light, PathVertex::Surface(IntersectionState::new())]
+}
+
+/// What a photon did.
+pub struct Traced {
+    /// What it stored.
+    pub stored: Vec<Photon>,
+    /// How many numbers it drew.
+    pub drawn: usize,
+}
+
+/// Lets `trace_photon` trace a photon on `ray` that has passed `path` and then draws `numbers`, and no
+/// more than these. A section after `section` that is not written yet ends the photon, so that each
+/// section can be tested before the next is begun.
 pub fn trace_scripted(
+    section: &str,
     renderer: &PhotonMappingRenderer,
     ray: &Ray,
     path: &mut Vec<PathVertex>,
     remaining_bounces: i32,
     numbers: &[f32],
-) -> Vec<Photon> {
-    let mut photon_map = Vec::new();
-    let mut rand = draws(numbers);
+) -> Traced {
+    let mut stored = Vec::new();
+    let mut drawn = 0;
+    let mut numbers = draws(numbers);
+    let mut rand = || {
+        drawn += 1;
+        numbers()
+    };
     let intensity = Vec3::new(0.25, 0.5, 1.0);
-    renderer.trace_photon(&mut photon_map, ray, intensity, path, remaining_bounces, &mut rand);
-    photon_map
+    let traced = catch_unwind(AssertUnwindSafe(|| {
+        renderer.trace_photon(&mut stored, ray, intensity, path, remaining_bounces, &mut rand);
+    }));
+    match traced {
+        Err(panic) if !is_blank_after(section, &*panic) => resume_unwind(panic),
+        _ => Traced { stored, drawn },
+    }
+}
+
+/// Whether `panic` is the `todo!` of a section after `section`.
+fn is_blank_after(section: &str, panic: &dyn Any) -> bool {
+    let message = panic.downcast_ref::<String>().map(String::as_str);
+    let message = message.or(panic.downcast_ref::<&str>().copied()).unwrap_or_default();
+    let Some(blank) = message.strip_prefix("not yet implemented: ") else { return false };
+    let later = SECTIONS.iter().skip_while(|known| **known != section).skip(1);
+    later.into_iter().any(|later| blank.starts_with(later))
 }
 
 /// Numbers for a photon, one after another, as if drawn.
@@ -126,10 +171,10 @@ pub fn is_unit(vector: Vec3) -> bool {
 
 /// Unit vectors anywhere, and, half of them, next to the x axis.
 pub fn unit_normal() -> impl Strategy<Value = Vec3> {
-    let anywhere = (any::<u64>()).prop_map(|seed| {
-        let ray = light().generate_random_photon_ray(&mut photon_random(seed, 0));
-        ray.ray_direction().normalize()
-    });
+    let coordinate = || -1.0_f32..1.0;
+    let anywhere = (coordinate(), coordinate(), coordinate())
+        .prop_map(|(x, y, z)| Vec3::new(x, y, z))
+        .prop_filter_map("too short", Vec3::try_normalize);
     let near_x = (any::<bool>(), 0_i32..30, 0_i32..30, any::<bool>(), any::<bool>()).prop_map(
         |(negative, y, z, y_negative, z_negative)| {
             let sign = |negative| if negative { -1.0_f32 } else { 1.0 };

@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 use std::io::{IsTerminal, Write as _};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -113,8 +112,11 @@ impl FormatName {
 /// When the policy cannot be read or an output cannot be written; what is wrong with a submission is in
 /// its grade.
 pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
-    let settings =
-        Settings { emitted: arguments.emitted, seed: arguments.seed, policy: policy(arguments)? };
+    let settings = Settings {
+        emitted: arguments.emitted,
+        seed: arguments.seed,
+        policy: policy(arguments.policy.as_deref())?,
+    };
     let (missing, there): (Vec<PathBuf>, Vec<PathBuf>) =
         arguments.submissions.iter().cloned().partition(|path| is_missing(path));
     if there.is_empty() {
@@ -129,15 +131,13 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     let bar = progress(handed_in.len());
     // A list is large and a grade is not, so what is written of a list is written at once.
     let one = |(handed_in, file): (&HandedIn, &String)| -> Result<(Grade, String), CliError> {
-        let start = Instant::now();
         let graded = grade_one(handed_in, &settings, |submission| {
             grade(submission, &settings, &expectations)
         });
-        let seconds = start.elapsed().as_secs_f64();
         bar.inc(1);
         let output = match arguments.format {
             FormatName::Text | FormatName::Json => String::new(),
-            FormatName::Gradescope => json(&gradescope::results(&graded.grade, best, seconds)),
+            FormatName::Gradescope => json(&gradescope::results(&graded.grade, best)),
             FormatName::Html => pages.page(&handed_in.submission, &graded),
         };
         match &folder {
@@ -258,8 +258,12 @@ fn expectations(max_bounces: i32) -> Expectations {
     Expectations::new(places, signatures)
 }
 
-fn policy(arguments: &GradeArgs) -> Result<Policy, CliError> {
-    let Some(path) = &arguments.policy else {
+/// The scores in the file `path`, or the handout's.
+///
+/// # Errors
+/// When the file cannot be read or is no policy.
+pub fn policy(path: Option<&Path>) -> Result<Policy, CliError> {
+    let Some(path) = path else {
         return Ok(Policy::default());
     };
     let wrong = |message: String| {

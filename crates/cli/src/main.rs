@@ -1,5 +1,6 @@
 //! The program `photon-mapping`: a file for every verb, each of which parses, calls and prints.
 
+mod autograde;
 mod beside_expected;
 mod check;
 mod compare;
@@ -8,6 +9,7 @@ mod expect;
 mod explain;
 mod explore;
 mod grade;
+mod kit;
 mod merge;
 mod output;
 mod progress;
@@ -15,6 +17,7 @@ mod render;
 mod report;
 mod run_args;
 mod run_summary;
+mod shell;
 mod values;
 
 use std::io::Write as _;
@@ -25,10 +28,21 @@ use clap::{Parser, Subcommand};
 /// The exit code of everything that could not be done.
 const FAILED: u8 = 2;
 
+/// The program's version, and the versions whose photon lists are the same, bit by bit: see the
+/// value-stability policy in CHANGELOG.md.
+const VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " (photon lists of ",
+    env!("CARGO_PKG_VERSION_MAJOR"),
+    ".",
+    env!("CARGO_PKG_VERSION_MINOR"),
+    ")"
+);
+
 #[derive(Debug, Parser)]
 #[command(
     name = "photon-mapping",
-    version,
+    version = VERSION,
     about = "The deterministic reference of Stanford CS148's Assignment 8, photon mapping",
     after_help = "Without a command, photon-mapping renders: its options are those of 'render'.",
     args_conflicts_with_subcommands = true
@@ -60,6 +74,14 @@ enum Command {
     Merge(merge::MergeArgs),
     /// Measure speed and accuracy, and write a page with plots and data
     Report(report::ReportArgs),
+    /// Write a folder for a course: an autograder for Gradescope, or a project for students
+    Kit(kit::KitArgs),
+    /// Grade what Gradescope hands over, and write its results.json
+    Autograde(autograde::AutogradeArgs),
+    /// Print the completions for a shell
+    Completions(shell::CompletionsArgs),
+    /// Print the manual page, or that of a verb
+    Man(shell::ManArgs),
 }
 
 fn main() -> ExitCode {
@@ -69,7 +91,7 @@ fn main() -> ExitCode {
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
 /// code.
 fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
+    let cli = match Cli::try_parse_from(shell::quiet_after_verb(arguments.into_iter().collect())) {
         Ok(cli) => cli,
         Err(error) if !error.use_stderr() => {
             // Help and version; a closed pipe is the reader's choice.
@@ -77,7 +99,7 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
             return 0;
         }
         Err(error) => {
-            complain(&one_line(&error.to_string()));
+            complain(&with_tips(&error.to_string()));
             return FAILED;
         }
     };
@@ -93,6 +115,10 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Merge(arguments)) => merge::run(&arguments),
         Some(Command::Report(arguments)) => report::run(&arguments),
+        Some(Command::Kit(arguments)) => kit::run(&arguments),
+        Some(Command::Autograde(arguments)) => autograde::run(&arguments),
+        Some(Command::Completions(arguments)) => shell::completions(&arguments),
+        Some(Command::Man(arguments)) => shell::man(&arguments),
     };
     match result {
         Ok(code) => code,
@@ -106,6 +132,15 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
 /// Prints `line` to standard error; where that cannot be written, the exit code alone must do.
 fn complain(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// The error `text` of clap on one line: what is wrong, and what may have been meant.
+fn with_tips(text: &str) -> String {
+    let mut paragraphs = text.split("\n\n");
+    let error = one_line(paragraphs.next().unwrap_or_default());
+    let lines = paragraphs.flat_map(str::lines).map(str::trim);
+    let tips = lines.filter(|line| line.starts_with("tip: ")).map(|tip| format!(" ({tip})"));
+    error + &tips.collect::<String>()
 }
 
 /// The first paragraph of `text` on one line.

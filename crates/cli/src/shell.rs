@@ -1,0 +1,70 @@
+//! What a shell asks of the program: completions, manual pages, and `-q` before the verb.
+
+use std::ffi::OsString;
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+use clap_mangen::Man;
+
+use super::Cli;
+use super::error::{CliError, print};
+
+/// The options of `completions`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example, for bash: photon-mapping completions bash > ~/.local/share/bash-completion/completions/photon-mapping")]
+pub struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// The options of `man`.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: photon-mapping man grade | man -l -")]
+pub struct ManArgs {
+    /// The verb
+    verb: Option<String>,
+}
+
+/// Prints the completions.
+///
+/// # Errors
+/// When standard output cannot be written.
+pub fn completions(arguments: &CompletionsArgs) -> Result<u8, CliError> {
+    let mut text = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Cli::command(), "photon-mapping", &mut text);
+    print(&String::from_utf8_lossy(&text))?;
+    Ok(0)
+}
+
+/// Prints a manual page.
+///
+/// # Errors
+/// When there is no such verb, or standard output cannot be written.
+pub fn man(arguments: &ManArgs) -> Result<u8, CliError> {
+    let mut program = Cli::command();
+    program.build();
+    let command = match &arguments.verb {
+        None => program,
+        Some(verb) => program.find_subcommand(verb).cloned().ok_or_else(|| {
+            let verbs: Vec<&str> = program.get_subcommands().map(|verb| verb.get_name()).collect();
+            let message = format!("man: expected one of {}, found '{verb}'", verbs.join(", "));
+            CliError::Argument(message)
+        })?,
+    };
+    let mut page = Vec::new();
+    Man::new(command).render(&mut page).expect("memory takes everything");
+    print(&String::from_utf8_lossy(&page))?;
+    Ok(0)
+}
+
+/// `words` of a command line, with a `-q` before the verb behind it: there the verb knows it.
+pub fn quiet_after_verb(mut words: Vec<OsString>) -> Vec<OsString> {
+    let is_quiet = words.get(1).is_some_and(|word| word == "-q" || word == "--quiet");
+    let verb = words.get(2).and_then(|word| word.to_str());
+    if is_quiet && verb.is_some_and(|verb| Cli::command().find_subcommand(verb).is_some()) {
+        words.swap(1, 2);
+    }
+    words
+}

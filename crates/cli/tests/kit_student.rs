@@ -1,0 +1,196 @@
+//! The edition for students: what fails at first, what each section turns green, and that nothing in it
+//! gives the answer away.
+
+mod support;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use support::{fails, folder, run_line, stdout};
+
+/// The handout's sections, each with the file to write it in and the module of its tests.
+const SECTIONS: [(&str, &str, &str); 5] = [
+    ("Photon Emission", "src/scene/point_light.rs", "emission"),
+    ("Photon Storage", "src/rendering/photon_mapping_renderer.rs", "storage"),
+    ("Photon Scattering/Absorption", "src/rendering/photon_mapping_renderer.rs", "roulette"),
+    ("Hemisphere Sampling", "src/rendering/sampling.rs", "hemisphere"),
+    ("Hemisphere Ray Transformation", "src/rendering/sampling.rs", "transformation"),
+];
+
+fn port(file: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The edition, in `folder`.
+fn edition(folder: &Path) -> PathBuf {
+    let starter = folder.join("starter");
+    run_line("kit student --out {}", &[&starter]).success();
+    starter
+}
+
+/// The lines of a section: after its step comment, up to the line that is `end`.
+fn body<'a>(text: &'a str, section: &str, end: &str) -> Vec<&'a str> {
+    let mark = format!("// {section}");
+    let lines = text.lines().skip_while(|line| line.trim() != mark).skip(1);
+    lines.take_while(|line| *line != end).collect()
+}
+
+/// Writes the port's body of a section in place of its `todo!`. Gives the port's lines.
+fn fill(starter: &Path, section: &str, file: &str) -> Vec<String> {
+    let path = starter.join(file);
+    let text = fs::read_to_string(&path).expect("the edition has the file");
+    let mark = format!("// {section}");
+    let lines: Vec<&str> = text.lines().collect();
+    let start = lines.iter().position(|line| line.trim() == mark).expect("it is marked") + 1;
+    assert!(lines[start].trim().starts_with("todo!("), "{section}: {}", lines[start]);
+    let indent = &lines[start][..lines[start].len() - lines[start].trim_start().len()];
+    let closing = format!("{indent});");
+    let end = start + lines[start..].iter().position(|line| *line == closing).expect("its end");
+    let next = lines[end + 1..].iter().find(|line| !line.is_empty()).expect("a line after it");
+    let original = port(file);
+    let body = body(&original, section, next);
+    let filled = [&lines[..start], &body, &lines[end + 1..]].concat().join("\n") + "\n";
+    fs::write(&path, filled).expect("the edition can be written");
+    body.into_iter().map(str::to_owned).collect()
+}
+
+/// What the failing tests say, and the names of those that pass.
+struct Outcome {
+    failed: BTreeMap<String, String>,
+    passed: BTreeSet<String>,
+}
+
+/// Runs the edition's tests. The libraries are built once for all runs.
+fn test(starter: &Path) -> Outcome {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("student-target");
+    let run = Command::new(env!("CARGO"))
+        .args(["test", "--offline", "--lib", "--bins", "--test", "assignment"])
+        .arg("--no-fail-fast")
+        .current_dir(starter)
+        .env("CARGO_TARGET_DIR", target)
+        .env_remove("INSTA_UPDATE")
+        .output()
+        .expect("cargo can be started");
+    let text = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(text.contains("test result"), "{}", String::from_utf8_lossy(&run.stderr));
+    let names = |end: &str| {
+        let lines = text.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(end));
+        lines.map(str::to_owned).collect::<BTreeSet<_>>()
+    };
+    let said = |name: &String| {
+        let (_, said) = text.split_once(&format!("---- {name} stdout ----")).unwrap_or_default();
+        said.split("\n---- ").next().unwrap_or_default().to_owned()
+    };
+    let failed = names(" ... FAILED").into_iter().map(|name| (name.clone(), said(&name)));
+    Outcome { failed: failed.collect(), passed: names(" ... ok") }
+}
+
+#[test]
+fn each_section_turns_its_own_tests_green() {
+    let folder = folder();
+    let starter = edition(folder.path());
+    let mut before = test(&starter);
+    let is_of = |name: &str, module: &str| name.starts_with(&format!("{module}::"));
+    for name in &before.passed {
+        let is_of_section = SECTIONS.iter().any(|(_, _, module)| is_of(name, module));
+        assert!(!is_of_section, "{name} passes before anything is written");
+    }
+    assert!(before.passed.iter().any(|name| is_of(name, "numerics")), "{:?}", before.passed);
+    for (number, (section, file, module)) in SECTIONS.into_iter().enumerate() {
+        for (name, said) in &before.failed {
+            let message = |(section, ..): &(&str, &str, &str)| {
+                said.contains(&format!("not yet implemented: {section}: expected "))
+            };
+            assert!(SECTIONS[number..].iter().any(message), "{name} says: {said}");
+            if is_of(name, module) {
+                assert!(message(&SECTIONS[number]), "{name} says: {said}");
+            }
+        }
+        fill(&starter, section, file);
+        let after = test(&starter);
+        let turned: BTreeSet<_> = after.passed.difference(&before.passed).collect();
+        let expected = before.failed.keys().filter(|name| is_of(name, module));
+        if number + 1 < SECTIONS.len() {
+            assert_eq!(turned, expected.collect(), "after {section}");
+        } else {
+            assert!(after.failed.is_empty(), "{:?}", after.failed);
+        }
+        assert!(after.passed.is_superset(&before.passed), "after {section}");
+        before = after;
+    }
+    for module in ["whole", "bits", "picture"] {
+        assert!(before.passed.iter().any(|name| is_of(name, module)), "{module}");
+    }
+}
+
+#[test]
+fn nothing_gives_the_answer_away() {
+    let folder = folder();
+    let starter = edition(folder.path());
+    let mut files = Vec::new();
+    gather(&starter, &mut files);
+    let is_test = |path: &&PathBuf| path.starts_with(starter.join("tests"));
+    let texts: Vec<(PathBuf, String)> = files
+        .iter()
+        .filter(|path| !is_test(path))
+        .filter_map(|path| Some((path.clone(), fs::read_to_string(path).ok()?)))
+        .collect();
+    // The framework's own code says how a material is found and how a ray is made.
+    let given = port("src/rendering/backward_renderer.rs") + &port("src/scene/camera.rs");
+    let mut seen = 0;
+    for (section, file, _) in SECTIONS {
+        for line in fill(&starter, section, file) {
+            let line = line.trim();
+            // Ends of blocks and the like tell nothing.
+            if line.len() < 20 || given.contains(line) {
+                continue;
+            }
+            seen += 1;
+            for (path, text) in &texts {
+                assert!(!text.contains(line), "{}: {line}", path.display());
+            }
+        }
+    }
+    assert!(seen > 25, "{seen} lines");
+    let names: Vec<_> = files.iter().map(|path| path.strip_prefix(&starter).unwrap()).collect();
+    for other in ["ASSIGNMENT.md", "tests/mutations.txt", "golden/letter-of-the-handout.snap"] {
+        assert!(!names.contains(&Path::new(other)), "{other}");
+    }
+}
+
+fn gather(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder can be listed") {
+        let path = entry.expect("an entry can be read").path();
+        if path.is_dir() { gather(&path, files) } else { files.push(path) }
+    }
+}
+
+#[test]
+fn the_readme_names_what_is_there() {
+    let folder = folder();
+    let starter = edition(folder.path());
+    let readme = fs::read_to_string(starter.join("README.md")).expect("there is one");
+    assert!(readme.split_whitespace().count() < 500);
+    for (section, file, module) in SECTIONS {
+        let row = readme.lines().find(|line| line.starts_with(&format!("| {section} |")));
+        let row = row.unwrap_or_else(|| panic!("{section} has no row"));
+        assert!(row.contains(file.trim_start_matches("src/")), "{row}");
+        assert!(row.contains(&format!("cargo test {module}::")), "{row}");
+        let function = row.split('`').nth(3).expect("a function");
+        assert!(port(file).contains(&format!("fn {function}")), "{file}: {function}");
+    }
+}
+
+#[test]
+fn a_folder_with_files_is_refused() {
+    let folder = folder();
+    fs::write(folder.path().join("notes.txt"), "mine").expect("it can be written");
+    fails("kit student --out {}", &[folder.path()], &["new or empty folder", "found files"]);
+    let empty = folder.path().join("empty");
+    fs::create_dir(&empty).expect("it can be made");
+    let printed = stdout(run_line("kit student --out {}", &[&empty]).success());
+    assert!(printed.contains("README.md"), "{printed}");
+}
