@@ -1,5 +1,4 @@
-//! Tells the build scripts of the toolkit where this package's files are. The toolkit shows the port's
-//! source, and makes the edition for students from it.
+//! Tells build scripts of packages that use this one where its source is, for those that show it.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

@@ -8,8 +8,8 @@ use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappi
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::{Material, MeshObject, Scene};
 
-/// Whether a photon that draws `number` for the roulette scatters at its only hit in `renderer`'s closed
-/// cube. If so, it draws u1 and u2 as well.
+/// Whether a photon that draws `number` for the roulette scatters at its only hit in `renderer`'s
+/// closed cube. If so, it draws u1 and u2 as well.
 fn scatters(renderer: &PhotonMappingRenderer, number: f32) -> bool {
     let mut path = vec![PathVertex::Light];
     let ray = Ray::new(Vec3::ZERO, Vec3::X);

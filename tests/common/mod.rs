@@ -121,9 +121,9 @@ pub struct Traced {
     pub drawn: usize,
 }
 
-/// Lets `trace_photon` trace a photon on `ray` that has passed `path` and then draws `numbers`, and no
-/// more than these. A section after `section` that is not written yet ends the photon, so that each
-/// section can be tested before the next is begun.
+/// Lets `trace_photon` trace a photon on `ray` that has passed `path` and then draws `numbers`, and
+/// no more than these. A section after `section` that is not written yet ends the photon, so that
+/// each section can be tested before the next is begun.
 pub fn trace_scripted(
     section: &str,
     renderer: &PhotonMappingRenderer,
