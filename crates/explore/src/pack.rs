@@ -12,14 +12,14 @@ const LEVEL: Compression = Compression::new(3);
 
 /// The columns of a page.
 #[derive(Debug, Default)]
-pub struct Columns {
+pub struct PackedColumns {
     /// Name, type and number of entries, in the order of `planes`.
     sections: Vec<(String, &'static str, usize)>,
     /// The bytes: of each column first all lowest bytes, then all second ones, and so on.
     planes: Vec<u8>,
 }
 
-impl Columns {
+impl PackedColumns {
     fn add<const BYTES: usize>(
         &mut self,
         name: impl Into<String>,

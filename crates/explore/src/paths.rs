@@ -18,7 +18,7 @@ use variants::run::Run;
 
 use super::Exploration;
 use super::comparison::Comparison;
-use super::pack::Columns;
+use super::pack::PackedColumns;
 
 /// A page shows all stored photons up to so many; of more, an evenly thinned sample of whole paths.
 const MOST_STORED: usize = 1_000_000;
@@ -29,11 +29,11 @@ const MOST_STORIES_OF_OTHERS: usize = 20_000;
 #[derive(Debug)]
 pub struct Paths {
     /// The packed numbers.
-    pub columns: Columns,
+    pub columns: PackedColumns,
     /// The photon on which the page opens.
     pub start: u64,
-    pub surfaces: Vec<Surface>,
-    pub faces: Vec<Face>,
+    pub surfaces: Vec<PageSurface>,
+    pub faces: Vec<PageFace>,
     pub lights: Vec<Value>,
     pub camera: Value,
     /// The scene's longest edge, in world units.
@@ -46,7 +46,7 @@ pub struct Paths {
 
 /// A mesh object.
 #[derive(Debug, Serialize)]
-pub struct Surface {
+pub struct PageSurface {
     name: String,
     /// P_r.
     survival: f32,
@@ -55,7 +55,7 @@ pub struct Surface {
 
 /// A face of a mesh object, with its frame, in world space.
 #[derive(Debug, Serialize)]
-pub struct Face {
+pub struct PageFace {
     surface: usize,
     facet: usize,
     normal: [f32; 3],
@@ -77,7 +77,7 @@ impl Paths {
         let thinned = thin(exploration.records, MOST_STORED);
         let records = thinned.as_deref().unwrap_or(exploration.records);
         let stories = stories(exploration, records);
-        let mut columns = Columns::default();
+        let mut columns = PackedColumns::default();
         add_paths(&mut columns, &stories, &faces, run);
         if let Some(comparison) = exploration.comparison {
             comparison.add_columns(&mut columns, &stored_places(&stories, exploration.records));
@@ -150,7 +150,7 @@ fn stored_places(stories: &[Story], records: &[PhotonRecord]) -> Vec<Option<u32>
     places.collect()
 }
 
-fn add_paths(columns: &mut Columns, stories: &[Story], faces: &[Face], run: &Run) {
+fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace], run: &Run) {
     let hits = || stories.iter().flat_map(|story| &story.hits);
     let mut before = 0;
     let steps: Vec<u32> = stories
@@ -217,8 +217,8 @@ fn direct_follows(story: &Story, run: &Run) -> bool {
     })
 }
 
-fn surfaces(scene: &Scene) -> Vec<Surface> {
-    let surface = |name: &str, diffuse: Vec3| Surface {
+fn surfaces(scene: &Scene) -> Vec<PageSurface> {
+    let surface = |name: &str, diffuse: Vec3| PageSurface {
         name: name.to_owned(),
         survival: diffuse.max_element(),
         diffuse: diffuse.to_array(),
@@ -228,8 +228,8 @@ fn surfaces(scene: &Scene) -> Vec<Surface> {
 }
 
 /// The faces in order of surface, then facet.
-fn faces(run: &Run) -> Vec<Face> {
-    let mut faces: Vec<Face> = facets(run.scene())
+fn faces(run: &Run) -> Vec<PageFace> {
+    let mut faces: Vec<PageFace> = facets(run.scene())
         .map(|group| {
             let normal = group[0].normal;
             let frame = run.reading.tangent_frame(normal);
@@ -241,7 +241,7 @@ fn faces(run: &Run) -> Vec<Face> {
             };
             let axis = [Vec3::X, Vec3::Y].into_iter().find(|axis| is_built_from(*axis));
             let axis = axis.unwrap_or(run.reading.fallback_axis);
-            Face {
+            PageFace {
                 surface: group[0].parent_mesh_object,
                 facet: group[0].facet,
                 normal: normal.to_array(),
@@ -270,7 +270,7 @@ fn faces(run: &Run) -> Vec<Face> {
 
 /// The handout's camera, or one that sees all of another scene. It has the point it turns around,
 /// the distance, the direction in radians, and half the height of its picture at distance 1.
-fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
+fn camera(is_handout: bool, faces: &[PageFace], size: f32) -> Value {
     let camera = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
     let half_height = camera.half_height;
     if is_handout {
@@ -298,7 +298,7 @@ fn camera(is_handout: bool, faces: &[Face], size: f32) -> Value {
 impl Comparison {
     /// Adds what the page reads of the overlay; `places` has the place of each record of the
     /// reference among the stored photons of the page.
-    fn add_columns(&self, columns: &mut Columns, places: &[Option<u32>]) {
+    fn add_columns(&self, columns: &mut PackedColumns, places: &[Option<u32>]) {
         let overlay = self.overlay(places);
         columns.bytes("kind", &overlay.kinds);
         columns.words("moved_index", &overlay.moved_index);

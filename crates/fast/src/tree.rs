@@ -55,15 +55,15 @@ type Four = [f32; IN_LEAF];
 /// Boxes around boxes around triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    nodes: Vec<Node>,
+    nodes: Vec<TreeNode>,
     leaves: Vec<Leaf>,
-    bounds: Bounds,
+    bounds: NodeBounds,
 }
 
 /// On the border of a cache line: in a large mesh most of the time is spent waiting for nodes.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(align(64))]
-struct Node {
+struct TreeNode {
     /// The least and the greatest corners of the boxes, by axis.
     ends: [[Boxes; 3]; 2],
     children: [u32; WIDTH],
@@ -80,12 +80,12 @@ struct Leaf {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Bounds {
+struct NodeBounds {
     low: Vec3,
     high: Vec3,
 }
 
-impl Bounds {
+impl NodeBounds {
     const EMPTY: Self = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
 
     fn of(triangle: &Triangle) -> Self {
@@ -110,12 +110,12 @@ impl Bounds {
 /// A triangle on its way into the tree.
 #[derive(Clone, Copy)]
 struct Item {
-    bounds: Bounds,
+    bounds: NodeBounds,
     index: u32,
 }
 
 /// A ray on its way through the tree.
-struct Search {
+struct TreeSearch {
     origin: Vec3,
     sheared: ShearedRay,
     reciprocal: Vec3,
@@ -132,7 +132,7 @@ impl Tree {
     pub fn new(triangles: &[Triangle]) -> Self {
         let mut items: Vec<Item> = (0..)
             .zip(triangles)
-            .map(|(index, triangle)| Item { bounds: Bounds::of(triangle), index })
+            .map(|(index, triangle)| Item { bounds: NodeBounds::of(triangle), index })
             .collect();
         let mut halving = Halving::default();
         let root = halving.add(&mut items);
@@ -143,21 +143,21 @@ impl Tree {
     }
 
     /// Adds a node for `part` and all below it, and gives its place.
-    fn add_node(&mut self, triangles: &[Triangle], halving: &Halving, part: Part) -> u32 {
+    fn add_node(&mut self, triangles: &[Triangle], halving: &Halving, part: TreePart) -> u32 {
         let place = self.nodes.len();
         let empty = [[f32::INFINITY; WIDTH]; 3];
-        self.nodes.push(Node {
+        self.nodes.push(TreeNode {
             ends: [empty, empty.map(|axis| axis.map(|low| -low))],
             children: [NO_CHILD; WIDTH],
         });
         for (slot, part) in halving.boxes(part).into_iter().enumerate() {
             let bounds = halving.bounds(part);
             let child = match part {
-                Part::Leaf(items) => {
+                TreePart::Leaf(items) => {
                     self.leaves.push(Leaf::new(triangles, items));
                     (self.leaves.len() - 1) as u32 | LEAF
                 }
-                Part::Halved(_) => self.add_node(triangles, halving, part),
+                TreePart::Halved(_) => self.add_node(triangles, halving, part),
             };
             let node = &mut self.nodes[place];
             node.children[slot] = child;
@@ -178,7 +178,7 @@ impl Tree {
     ) -> Option<((usize, f32), bool)> {
         let (origin, direction) = (ray.position(), ray.ray_direction());
         let reach = (self.bounds.low - origin).abs().max((self.bounds.high - origin).abs());
-        let mut search = Search {
+        let mut search = TreeSearch {
             origin,
             sheared: ShearedRay::new(ray),
             reciprocal: direction.recip(),
@@ -284,10 +284,10 @@ impl Stack {
     }
 }
 
-impl Search {
+impl TreeSearch {
     /// How far away the boxes of `node` begin; infinite when the ray misses one.
     #[inline(always)]
-    fn enter(&self, node: &Node) -> Boxes {
+    fn enter(&self, node: &TreeNode) -> Boxes {
         let mut near = [0.0; WIDTH];
         let mut far = [f32::INFINITY; WIDTH];
         for axis in 0..3 {
@@ -387,15 +387,15 @@ struct Halving<'items> {
 }
 
 #[derive(Clone, Copy)]
-enum Part<'items> {
+enum TreePart<'items> {
     Leaf(&'items [Item]),
     /// Its place in [`Halving::halved`].
     Halved(u32),
 }
 
 struct Halved<'items> {
-    bounds: Bounds,
-    halves: [Part<'items>; 2],
+    bounds: NodeBounds,
+    halves: [TreePart<'items>; 2],
     /// At `n - 1`, how many nodes are entered in this part if it becomes at most `n` boxes of the
     /// node above it. It is the sum of the areas of all those nodes, because the numbers of rays
     /// are proportional to areas.
@@ -403,9 +403,9 @@ struct Halved<'items> {
 }
 
 impl<'items> Halving<'items> {
-    fn add(&mut self, items: &'items mut [Item]) -> Part<'items> {
+    fn add(&mut self, items: &'items mut [Item]) -> TreePart<'items> {
         if items.len() <= IN_LEAF {
-            return Part::Leaf(items);
+            return TreePart::Leaf(items);
         }
         let (left, right) = split(items);
         let halves = [self.add(left), self.add(right)];
@@ -413,24 +413,26 @@ impl<'items> Halving<'items> {
         let bounds = left.and(right);
         let nodes = self.nodes_of(bounds, halves);
         self.halved.push(Halved { bounds, halves, nodes });
-        Part::Halved((self.halved.len() - 1) as u32)
+        TreePart::Halved((self.halved.len() - 1) as u32)
     }
 
-    fn bounds(&self, part: Part) -> Bounds {
+    fn bounds(&self, part: TreePart) -> NodeBounds {
         match part {
-            Part::Leaf(items) => items.iter().fold(Bounds::EMPTY, |all, item| all.and(item.bounds)),
-            Part::Halved(place) => self.halved[place as usize].bounds,
+            TreePart::Leaf(items) => {
+                items.iter().fold(NodeBounds::EMPTY, |all, item| all.and(item.bounds))
+            }
+            TreePart::Halved(place) => self.halved[place as usize].bounds,
         }
     }
 
-    fn nodes(&self, part: Part) -> [f32; WIDTH] {
+    fn nodes(&self, part: TreePart) -> [f32; WIDTH] {
         match part {
-            Part::Leaf(_) => [0.0; WIDTH],
-            Part::Halved(place) => self.halved[place as usize].nodes,
+            TreePart::Leaf(_) => [0.0; WIDTH],
+            TreePart::Halved(place) => self.halved[place as usize].nodes,
         }
     }
 
-    fn nodes_of(&self, bounds: Bounds, halves: [Part; 2]) -> [f32; WIDTH] {
+    fn nodes_of(&self, bounds: NodeBounds, halves: [TreePart; 2]) -> [f32; WIDTH] {
         let [left, right] = halves.map(|half| self.nodes(half));
         let mut nodes = [bounds.half_area() + best_share(&left, &right, WIDTH).0; WIDTH];
         for boxes in 2..=WIDTH {
@@ -440,17 +442,17 @@ impl<'items> Halving<'items> {
     }
 
     /// The parts that become the boxes of `part`'s node.
-    fn boxes(&self, part: Part<'items>) -> Vec<Part<'items>> {
+    fn boxes(&self, part: TreePart<'items>) -> Vec<TreePart<'items>> {
         let mut boxes = Vec::with_capacity(WIDTH);
         match part {
-            Part::Leaf(_) => boxes.push(part),
-            Part::Halved(place) => self.share(place, WIDTH, &mut boxes),
+            TreePart::Leaf(_) => boxes.push(part),
+            TreePart::Halved(place) => self.share(place, WIDTH, &mut boxes),
         }
         boxes
     }
 
     /// Adds what becomes of the halves of the part at `place` if there are `count` boxes for them.
-    fn share(&self, place: u32, count: usize, boxes: &mut Vec<Part<'items>>) {
+    fn share(&self, place: u32, count: usize, boxes: &mut Vec<TreePart<'items>>) {
         let halves = self.halved[place as usize].halves;
         let [left, right] = halves.map(|half| self.nodes(half));
         let share = best_share(&left, &right, count).1;
@@ -459,7 +461,7 @@ impl<'items> Halving<'items> {
             // Boxes without which it goes as well stay empty.
             let of_use = nodes.iter().take_while(|fewer| **fewer > nodes[count - 1]).count() + 1;
             match half {
-                Part::Halved(place) if of_use > 1 => self.share(place, of_use, boxes),
+                TreePart::Halved(place) if of_use > 1 => self.share(place, of_use, boxes),
                 _ => boxes.push(half),
             }
         }
@@ -486,7 +488,7 @@ fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
         let places = (item.bounds.center() - low) * scale;
         places.to_array().map(|place| (place as i32 as usize).min(BINS - 1))
     };
-    let mut bins = [[(0_usize, Bounds::EMPTY); BINS]; 3];
+    let mut bins = [[(0_usize, NodeBounds::EMPTY); BINS]; 3];
     for item in &*items {
         for (bins, bin) in bins.iter_mut().zip(bins_of(item)) {
             let (count, bounds) = &mut bins[bin];
@@ -496,13 +498,13 @@ fn split(items: &mut [Item]) -> (&mut [Item], &mut [Item]) {
     let mut best = (f32::INFINITY, 0, 0);
     for axis in (0..3).filter(|axis| extent[*axis] > 0.0) {
         let mut right_cost = [0.0; BINS];
-        let mut right = (0, Bounds::EMPTY);
+        let mut right = (0, NodeBounds::EMPTY);
         for cut in (1..BINS).rev() {
             let (count, bounds) = bins[axis][cut];
             right = (right.0 + count, right.1.and(bounds));
             right_cost[cut] = leaves(right.0) * right.1.half_area();
         }
-        let mut left = (0, Bounds::EMPTY);
+        let mut left = (0, NodeBounds::EMPTY);
         for cut in 1..BINS {
             let (count, bounds) = bins[axis][cut - 1];
             left = (left.0 + count, left.1.and(bounds));

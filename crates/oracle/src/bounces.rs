@@ -6,15 +6,15 @@
 //! f_b = P_r times the form factor of b, is exact at every node: N_{k+1},b = a_k . g_b.
 
 use super::direct::Direct;
-use super::mesh::{Mesh, Row, View};
-use super::scene::{Scene, Side};
+use super::mesh::{Mesh, PlateView, TransportRow};
+use super::scene::{PlateScene, Side};
 use super::solid_angle::form_factor;
-use super::triangle_rules::Rule;
+use super::triangle_rules::TriangleRule;
 use super::visibility::seen_from_plate;
 use rayon::prelude::*;
 
 /// What A needs at one node.
-struct Node {
+struct QuadratureNode {
     plate: usize,
     /// (cell, weights of its three nodes), already times P_r.
     row: Vec<(u32, [f64; 3])>,
@@ -43,7 +43,7 @@ const NEGLIGIBLE: f64 = 1e-15;
 /// nodes are scaled to them plate by plate, which takes out most of the quadrature's error.
 /// `surface_of` numbers each plate's surface.
 pub fn follow(
-    scene: &Scene,
+    scene: &PlateScene,
     direct: &Direct,
     mesh: &Mesh,
     known: &[Vec<f64>],
@@ -82,18 +82,18 @@ pub fn follow(
     Bounces { hits, ordered_pairs }
 }
 
-fn nodes(scene: &Scene, direct: &Direct, mesh: &Mesh) -> Vec<Node> {
-    let rule = Rule::radon();
+fn nodes(scene: &PlateScene, direct: &Direct, mesh: &Mesh) -> Vec<QuadratureNode> {
+    let rule = TriangleRule::radon();
     let at_nodes: Vec<(usize, usize)> =
         (0..mesh.cells.len()).flat_map(|cell| (0..3).map(move |i| (cell, i))).collect();
     at_nodes
         .into_par_iter()
         .map_init(
-            || Row::new(mesh.cells.len()),
+            || TransportRow::new(mesh.cells.len()),
             |row, (cell, i)| {
                 let cell = &mesh.cells[cell];
                 let plate = &scene.plates[cell.plate];
-                let view = View {
+                let view = PlateView {
                     eye: cell.nodes[i],
                     normal: plate.plane.normal,
                     rule: &rule,
@@ -111,7 +111,7 @@ fn nodes(scene: &Scene, direct: &Direct, mesh: &Mesh) -> Vec<Node> {
                     .for_each(|(_, shares)| *shares = shares.map(|share| share * plate.survival));
                 let area = cell.area / 3.0;
                 let second_hits = direct.second_hit_density(scene, cell.plate, view.eye) * area;
-                Node { plate: cell.plate, row, to_plates, area, second_hits }
+                QuadratureNode { plate: cell.plate, row, to_plates, area, second_hits }
             },
         )
         .collect()
@@ -119,7 +119,7 @@ fn nodes(scene: &Scene, direct: &Direct, mesh: &Mesh) -> Vec<Node> {
 
 /// Scales the weights on each plate so that they sum to `exact`; where all nodes missed, spreads it
 /// evenly.
-fn scale_to(weights: &mut [f64], nodes: &[Node], exact: &[f64]) {
+fn scale_to(weights: &mut [f64], nodes: &[QuadratureNode], exact: &[f64]) {
     let (mut sums, mut areas) = (vec![0.0; exact.len()], vec![0.0; exact.len()]);
     for (node, weight) in nodes.iter().zip(&*weights) {
         sums[node.plate] += weight;
@@ -137,7 +137,7 @@ fn scale_to(weights: &mut [f64], nodes: &[Node], exact: &[f64]) {
 
 /// Sum over 2 <= j < k <= most of E[I_j,a I_k,b] = a_j . (g_b + A g_b + ... + A^(most - j - 1) g_b)
 /// over the nodes of a.
-fn pairs(nodes: &[Node], stages: &[Vec<f64>], surface_of: &[usize]) -> Vec<Vec<f64>> {
+fn pairs(nodes: &[QuadratureNode], stages: &[Vec<f64>], surface_of: &[usize]) -> Vec<Vec<f64>> {
     let surfaces = surface_of.iter().max().map_or(0, |&highest| highest + 1);
     let mut pairs = vec![vec![0.0; surfaces]; surfaces];
     let first: Vec<Vec<f64>> = nodes

@@ -2,12 +2,12 @@
 //! facets, and in strips along edges where facets touch.
 
 use super::polygon::{Plane, Polygon, side_planes, split};
-use super::scene::{IN_PLANE, Scene, Side};
+use super::scene::{IN_PLANE, PlateScene, Side};
 use glam::DVec3;
 
 /// Planes `widths` scene units away from those edges of `polygon`, a piece of `plate`, at which it
 /// touches a facet that it sees.
-pub fn strips(scene: &Scene, plate: usize, polygon: &[DVec3], widths: &[f64]) -> Vec<Plane> {
+pub fn strips(scene: &PlateScene, plate: usize, polygon: &[DVec3], widths: &[f64]) -> Vec<Plane> {
     let mut planes = Vec::new();
     for side in side_planes(polygon, scene.plates[plate].plane.normal) {
         let edge: Vec<DVec3> =
@@ -20,7 +20,7 @@ pub fn strips(scene: &Scene, plate: usize, polygon: &[DVec3], widths: &[f64]) ->
 }
 
 /// Whether `other`, in view of `plate`, holds a piece of `edge`.
-fn touches(scene: &Scene, plate: usize, other: usize, edge: &[DVec3]) -> bool {
+fn touches(scene: &PlateScene, plate: usize, other: usize, edge: &[DVec3]) -> bool {
     let (&[start, end] | &[start, .., end]) = edge else {
         return false;
     };
@@ -37,7 +37,7 @@ fn touches(scene: &Scene, plate: usize, other: usize, edge: &[DVec3]) -> bool {
 }
 
 /// Planes in which another facet lies and that cross this one.
-pub fn cutting_planes(scene: &Scene, plate: usize) -> Vec<Plane> {
+pub fn cutting_planes(scene: &PlateScene, plate: usize) -> Vec<Plane> {
     let mut planes: Vec<Plane> = Vec::new();
     for other in 0..scene.plates.len() {
         let (lowest, highest) = scene.range(other, plate);

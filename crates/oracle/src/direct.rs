@@ -1,9 +1,9 @@
 //! First hits: where the emitters shine, how densely, and the density of second hits they cause.
 
 use super::polygon::{Plane, Polygon, keep, range, side_planes};
-use super::scene::{Scene, Side};
+use super::scene::{PlateScene, Side};
 use super::solid_angle::{form_factor, solid_angle};
-use super::triangle_rules::Rule;
+use super::triangle_rules::TriangleRule;
 use super::visibility::{seen_from_plate, seen_from_point};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -25,13 +25,13 @@ pub struct Direct {
     by_plate: Vec<Vec<usize>>,
     /// Expected first hits on each plate per emitted photon.
     pub hits: Vec<f64>,
-    rule: Rule,
+    rule: TriangleRule,
     ratio: f64,
 }
 
 impl Direct {
     /// Closed form: share times solid angle of the lit pieces over 4 pi.
-    pub fn new(scene: &Scene, rule: Rule, ratio: f64) -> Self {
+    pub fn new(scene: &PlateScene, rule: TriangleRule, ratio: f64) -> Self {
         let count = scene.plates.len();
         let lit: Vec<Vec<LitPiece>> = (0..count)
             .into_par_iter()
@@ -60,7 +60,7 @@ impl Direct {
 
     /// Density of first hits from one emitter at a lit point of a plate, per emitted photon and
     /// scene unit of area: share |cos| / (4 pi r^2).
-    pub fn density(&self, scene: &Scene, emitter: usize, plate: usize, point: DVec3) -> f64 {
+    pub fn density(&self, scene: &PlateScene, emitter: usize, plate: usize, point: DVec3) -> f64 {
         let (position, share) = scene.emitters[emitter];
         let towards = position - point;
         let squared = towards.length_squared();
@@ -74,7 +74,7 @@ impl Direct {
     ///
     /// Exactly visible pieces, so that the integrand is smooth. The closed form factor of each
     /// piece times the mean of n1 over it; only the mean is a quadrature.
-    pub fn second_hit_density(&self, scene: &Scene, at: usize, point: DVec3) -> f64 {
+    pub fn second_hit_density(&self, scene: &PlateScene, at: usize, point: DVec3) -> f64 {
         let mut density = 0.0;
         for side in [Side::Front, Side::Back] {
             for from in 0..scene.plates.len() {
@@ -99,7 +99,7 @@ impl Direct {
 
     fn gather_piece(
         &self,
-        scene: &Scene,
+        scene: &PlateScene,
         at: usize,
         point: DVec3,
         seen: &[DVec3],

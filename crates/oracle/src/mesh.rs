@@ -4,9 +4,9 @@
 use super::cuts::{cutting_planes, strips};
 use super::direct::kernel;
 use super::polygon::{ON_PLANE, Plane, Polygon, bisect, fan, longest_edge, range, split};
-use super::scene::Scene;
+use super::scene::PlateScene;
 use super::solid_angle::form_factor;
-use super::triangle_rules::Rule;
+use super::triangle_rules::TriangleRule;
 use glam::DVec3;
 
 /// The nodes of a cell in barycentric coordinates: a rule exact to degree 2 with weights of a third
@@ -48,7 +48,7 @@ impl Mesh {
     /// facets touch there. Along edges where facets that see each other touch, strips are cut
     /// off, `widths` times `longest` wide: there the density varies as d log d with
     /// the distance d.
-    pub fn new(scene: &Scene, longest: f64, widths: Option<&'static [f64]>) -> Self {
+    pub fn new(scene: &PlateScene, longest: f64, widths: Option<&'static [f64]>) -> Self {
         let mut mesh = Self { cells: Vec::new(), trees: Vec::new(), widths };
         for plate in 0..scene.plates.len() {
             let planes = if widths.is_some() { cutting_planes(scene, plate) } else { Vec::new() };
@@ -61,7 +61,7 @@ impl Mesh {
 
     fn grow(
         &mut self,
-        scene: &Scene,
+        scene: &PlateScene,
         plate: usize,
         polygon: Polygon,
         planes: &[Plane],
@@ -87,7 +87,7 @@ impl Mesh {
 
     fn cut_strips(
         &mut self,
-        scene: &Scene,
+        scene: &PlateScene,
         plate: usize,
         polygon: Polygon,
         strips: &[Plane],
@@ -105,7 +105,13 @@ impl Mesh {
         Branch::Cut(*plane, Box::new(positive), Box::new(negative))
     }
 
-    fn grow_fan(&mut self, scene: &Scene, plate: usize, polygon: &[DVec3], longest: f64) -> Branch {
+    fn grow_fan(
+        &mut self,
+        scene: &PlateScene,
+        plate: usize,
+        polygon: &[DVec3],
+        longest: f64,
+    ) -> Branch {
         let normal = scene.plates[plate].plane.normal;
         let mut triangles: Vec<[DVec3; 3]> = fan(polygon).collect();
         let Some(last) = triangles.pop() else {
@@ -129,7 +135,7 @@ impl Mesh {
 
     fn grow_triangle(
         &mut self,
-        scene: &Scene,
+        scene: &PlateScene,
         plate: usize,
         triangle: [DVec3; 3],
         longest: f64,
@@ -177,18 +183,25 @@ impl Mesh {
     /// `target`, fills of the cosine lobe of `eye`.
     ///
     /// Exact if the function is constant; else the mean position in each cell is a quadrature.
-    pub fn gather(&self, scene: &Scene, view: &View, target: usize, seen: Polygon, row: &mut Row) {
+    pub fn gather(
+        &self,
+        scene: &PlateScene,
+        view: &PlateView,
+        target: usize,
+        seen: Polygon,
+        row: &mut TransportRow,
+    ) {
         self.descend(scene, view, &self.trees[target], target, seen, row);
     }
 
     fn descend(
         &self,
-        scene: &Scene,
-        view: &View,
+        scene: &PlateScene,
+        view: &PlateView,
         branch: &Branch,
         target: usize,
         piece: Polygon,
-        row: &mut Row,
+        row: &mut TransportRow,
     ) {
         if piece.len() < 3 {
             return;
@@ -232,21 +245,21 @@ impl Mesh {
 }
 
 /// Where a row is gathered, and how finely.
-pub struct View<'a> {
+pub struct PlateView<'a> {
     pub eye: DVec3,
     /// Unit normal of the lobe.
     pub normal: DVec3,
-    pub rule: &'a Rule,
+    pub rule: &'a TriangleRule,
     pub ratio: f64,
 }
 
 /// Weights per cell, collected densely, handed out sparsely.
-pub struct Row {
+pub struct TransportRow {
     weights: Vec<[f64; 3]>,
     touched: Vec<usize>,
 }
 
-impl Row {
+impl TransportRow {
     pub fn new(cells: usize) -> Self {
         Self { weights: vec![[0.0; 3]; cells], touched: Vec::new() }
     }

@@ -39,7 +39,7 @@ pub enum Side {
     Back,
 }
 
-pub struct Scene {
+pub struct PlateScene {
     pub plates: Vec<Plate>,
     /// Position in scene units, and share of the emitted photons.
     pub emitters: Vec<(DVec3, f64)>,
@@ -52,7 +52,7 @@ pub struct Scene {
     between: Vec<Vec<u32>>,
 }
 
-impl Scene {
+impl PlateScene {
     /// Facets with a coordinate that is not finite or without area are left out, as are emitters
     /// that are not finite or have no share.
     pub fn new(facets: &[Facet], emitters: &[Emitter]) -> Self {

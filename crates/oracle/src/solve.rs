@@ -6,9 +6,9 @@ use super::direct::Direct;
 use super::expectation::{Bounded, Expectation, FacetHits};
 use super::mesh::Mesh;
 use super::polygon::{area_vector, bisect, fan, longest_edge};
-use super::scene::{GAP, Scene, Side};
+use super::scene::{GAP, PlateScene, Side};
 use super::solid_angle::form_factor;
-use super::triangle_rules::{Integral, Rule, integrate};
+use super::triangle_rules::{Integral, TriangleRule, integrate};
 use super::visibility::seen_from_plate;
 use super::{Accuracy, Emitter, Facet};
 use glam::DVec3;
@@ -29,12 +29,13 @@ const WHOLE_SCENE: f64 = 4.0;
 
 /// Expected hits per emitted photon on every facet, for every bounce.
 pub fn expect(facets: &[Facet], emitters: &[Emitter], accuracy: Accuracy) -> Expectation {
-    expect_with(facets, emitters, &Settings::of(accuracy))
+    expect_with(facets, emitters, &SolveSettings::of(accuracy))
 }
 
-fn expect_with(facets: &[Facet], emitters: &[Emitter], settings: &Settings) -> Expectation {
-    let scene = Scene::new(facets, emitters);
-    let direct = Direct::new(&scene, Rule::folded(settings.gather_order), settings.gather_ratio);
+fn expect_with(facets: &[Facet], emitters: &[Emitter], settings: &SolveSettings) -> Expectation {
+    let scene = PlateScene::new(facets, emitters);
+    let direct =
+        Direct::new(&scene, TriangleRule::folded(settings.gather_order), settings.gather_ratio);
     let cuts = scene.plates.len() <= MOST_FACETS_FOR_CUTS;
 
     let first_errors = vec![0.0; direct.hits.len()];
@@ -83,7 +84,7 @@ fn expect_with(facets: &[Facet], emitters: &[Emitter], settings: &Settings) -> E
     result
 }
 
-struct Settings {
+struct SolveSettings {
     /// Sum over facets of the error of the second hits.
     second_tolerance: f64,
     second_evaluations: usize,
@@ -99,7 +100,7 @@ struct Settings {
     gather_ratio: f64,
 }
 
-impl Settings {
+impl SolveSettings {
     fn of(accuracy: Accuracy) -> Self {
         match accuracy {
             Accuracy::Quick => Self {
@@ -144,7 +145,7 @@ fn empty_hits(facet: &Facet, bounces: usize) -> FacetHits {
 
 /// `triangle` of `plate` in parts small enough that none can hide the narrow peak that a small
 /// thing nearby makes. Where all things are about as large as the scene, it stays whole.
-fn halved(scene: &Scene, plate: usize, triangle: [DVec3; 3]) -> Vec<[DVec3; 3]> {
+fn halved(scene: &PlateScene, plate: usize, triangle: [DVec3; 3]) -> Vec<[DVec3; 3]> {
     let detail = scene.detail_near(plate, &triangle);
     let (_, length_squared) = longest_edge(&triangle);
     if detail > SMALL || length_squared <= (4.0 * detail).powi(2) || length_squared < 1e-12 {
@@ -155,7 +156,12 @@ fn halved(scene: &Scene, plate: usize, triangle: [DVec3; 3]) -> Vec<[DVec3; 3]> 
 
 /// N2: the lit pieces, cut where a facet comes into view, are integrated with the chance to reach
 /// each facet.
-fn second_hits(scene: &Scene, direct: &Direct, settings: &Settings, cuts: bool) -> Integral {
+fn second_hits(
+    scene: &PlateScene,
+    direct: &Direct,
+    settings: &SolveSettings,
+    cuts: bool,
+) -> Integral {
     let mut triangles = Vec::new();
     for (index, piece) in direct.pieces.iter().enumerate() {
         if scene.plates[piece.plate].survival > 0.0 {
@@ -175,7 +181,7 @@ fn second_hits(scene: &Scene, direct: &Direct, settings: &Settings, cuts: bool) 
         let density = direct.density(scene, piece.emitter, piece.plate, point);
         reached_from(scene, piece.plate, point, density)
     };
-    let rule = if cuts { Rule::radon() } else { Rule::cheap() };
+    let rule = if cuts { TriangleRule::radon() } else { TriangleRule::cheap() };
     integrate(
         &rule,
         triangles,
@@ -187,7 +193,13 @@ fn second_hits(scene: &Scene, direct: &Direct, settings: &Settings, cuts: bool) 
 }
 
 /// N3: as N2, over all facets and with the gathered density of second hits.
-fn third_hits(scene: &Scene, direct: &Direct, tolerance: f64, most: usize, cuts: bool) -> Integral {
+fn third_hits(
+    scene: &PlateScene,
+    direct: &Direct,
+    tolerance: f64,
+    most: usize,
+    cuts: bool,
+) -> Integral {
     let mut triangles = Vec::new();
     for (index, plate) in scene.plates.iter().enumerate() {
         if plate.survival > 0.0 {
@@ -205,11 +217,11 @@ fn third_hits(scene: &Scene, direct: &Direct, tolerance: f64, most: usize, cuts:
         let density = direct.second_hit_density(scene, plate, point);
         reached_from(scene, plate, point, density)
     };
-    integrate(&Rule::radon(), triangles, scene.plates.len(), tolerance, most, integrand)
+    integrate(&TriangleRule::radon(), triangles, scene.plates.len(), tolerance, most, integrand)
 }
 
 /// Density of hits on each plate by photons that hit `point` of `plate` with density `density`.
-fn reached_from(scene: &Scene, plate: usize, point: DVec3, density: f64) -> Vec<f64> {
+fn reached_from(scene: &PlateScene, plate: usize, point: DVec3, density: f64) -> Vec<f64> {
     let source = &scene.plates[plate];
     (0..scene.plates.len())
         .map(|target| {
@@ -225,7 +237,7 @@ fn reached_from(scene: &Scene, plate: usize, point: DVec3, density: f64) -> Vec<
 }
 
 /// A mesh of nearly `most` cells; of more, if the facets themselves are more.
-fn mesh_of(scene: &Scene, most: usize, widths: Option<&'static [f64]>) -> Mesh {
+fn mesh_of(scene: &PlateScene, most: usize, widths: Option<&'static [f64]>) -> Mesh {
     let area: f64 =
         scene.plates.iter().map(|plate| 0.5 * area_vector(&plate.corners).length()).sum();
     // No triangle has more area than a quarter of its longest edge squared if it comes from halving
@@ -324,9 +336,9 @@ mod tests {
     #[ignore = "a minute of processor time"]
     fn second_hits_gathered_are_those_sent() {
         let (facets, emitters) = handout();
-        let scene = Scene::new(&facets, &emitters);
-        let settings = Settings::of(Accuracy::Full);
-        let direct = Direct::new(&scene, Rule::folded(7), 0.7);
+        let scene = PlateScene::new(&facets, &emitters);
+        let settings = SolveSettings::of(Accuracy::Full);
+        let direct = Direct::new(&scene, TriangleRule::folded(7), 0.7);
         let sent = second_hits(&scene, &direct, &settings, true);
         let on_tall_box = |plate: &usize| facets[scene.plates[*plate].facet].surface == TALL_BOX;
         let mut triangles = Vec::new();
@@ -337,7 +349,7 @@ mod tests {
             triangles.extend(fans.map(|triangle| (plate, triangle)));
         }
         let density = |plate: usize, point| vec![direct.second_hit_density(&scene, plate, point)];
-        let gathered = integrate(&Rule::radon(), triangles, 1, 4e-10, 1_000_000, density);
+        let gathered = integrate(&TriangleRule::radon(), triangles, 1, 4e-10, 1_000_000, density);
         let sum = |numbers: &[f64]| {
             (0..numbers.len()).filter(on_tall_box).map(|plate| numbers[plate]).sum::<f64>()
         };
@@ -363,9 +375,9 @@ mod tests {
     #[ignore = "a minute of processor time"]
     fn third_hits_have_the_known_digits() {
         let (facets, emitters) = handout();
-        let full = Settings::of(Accuracy::Full);
+        let full = SolveSettings::of(Accuracy::Full);
         // What is looked at here does not depend on the meshes.
-        let settings = Settings { second_tolerance: 1e-6, cells: [100, 300], ..full };
+        let settings = SolveSettings { second_tolerance: 1e-6, cells: [100, 300], ..full };
         let result = expect_with(&facets, &emitters, &settings);
         let known = [
             (FLOOR, 0.00330447),

@@ -149,14 +149,14 @@ pub struct Counts {
     pub late_squares: Vec<u64>,
 }
 
-struct Law {
+struct CountLaw {
     /// Expected photons stored per emitted photon, and a bound on the error, from bounce 1 on.
     by_bounce: Vec<Bounded>,
     /// Variance of all of them together; unknown where paths are cut short.
     variance: Option<f64>,
 }
 
-fn law(expected: &ExpectedTable, members: std::ops::Range<usize>, max_bounces: usize) -> Law {
+fn law(expected: &ExpectedTable, members: std::ops::Range<usize>, max_bounces: usize) -> CountLaw {
     let bounces = expected.total.hits.len().saturating_sub(1);
     let cell = |surface: usize, bounce: usize| {
         let row = &expected.surfaces[surface];
@@ -167,7 +167,7 @@ fn law(expected: &ExpectedTable, members: std::ops::Range<usize>, max_bounces: u
         .collect();
     let pairs = members.clone().flat_map(|a| members.clone().map(move |b| (a, b)));
     let variance = pairs.map(|(a, b)| expected.covariance[a][b]).sum();
-    Law { by_bounce, variance: (max_bounces >= bounces).then_some(variance) }
+    CountLaw { by_bounce, variance: (max_bounces >= bounces).then_some(variance) }
 }
 
 /// One number of the table.

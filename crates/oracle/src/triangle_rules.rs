@@ -6,11 +6,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Points of a rule as barycentric coordinates, weights that sum to 1.
-pub struct Rule {
+pub struct TriangleRule {
     points: Vec<([f64; 3], f64)>,
 }
 
-impl Rule {
+impl TriangleRule {
     /// Radon's seven-point rule (1948), exact to degree 5.
     pub fn radon() -> Self {
         let root = 15f64.sqrt();
@@ -144,7 +144,7 @@ struct Element {
 /// narrow features between their points. In the handout's scene these bring the sum of all such
 /// errors, without regard to sign, down to about the error that is left.
 pub fn integrate(
-    rule: &Rule,
+    rule: &TriangleRule,
     triangles: Vec<(usize, [DVec3; 3])>,
     count: usize,
     tolerance: f64,

@@ -1,12 +1,12 @@
 //! What of a facet can be seen from a point: exact, as convex pieces.
 
 use super::polygon::{Plane, Polygon, edges, keep, range, subtract};
-use super::scene::{IN_PLANE, Plate, Scene, Side};
+use super::scene::{IN_PLANE, Plate, PlateScene, Side};
 use glam::DVec3;
 
 /// Pieces of plate `target` seen from `eye`, a point of plate `from`, looking out on `side` of it.
 pub fn seen_from_plate(
-    scene: &Scene,
+    scene: &PlateScene,
     from: usize,
     side: Side,
     eye: DVec3,
@@ -32,7 +32,7 @@ pub fn seen_from_plate(
 }
 
 /// Pieces of plate `target` seen from `eye`, a point in free space.
-pub fn seen_from_point(scene: &Scene, eye: DVec3, target: usize) -> Vec<Polygon> {
+pub fn seen_from_point(scene: &PlateScene, eye: DVec3, target: usize) -> Vec<Polygon> {
     if is_edge_on(scene, target, eye) {
         return Vec::new();
     }
@@ -43,7 +43,7 @@ pub fn seen_from_point(scene: &Scene, eye: DVec3, target: usize) -> Vec<Polygon>
     pieces
 }
 
-fn is_edge_on(scene: &Scene, plate: usize, eye: DVec3) -> bool {
+fn is_edge_on(scene: &PlateScene, plate: usize, eye: DVec3) -> bool {
     scene.plates[plate].plane.distance(eye).abs() < IN_PLANE
 }
 
@@ -54,7 +54,7 @@ fn is_edge_on(scene: &Scene, plate: usize, eye: DVec3) -> bool {
 /// by planes through eye and edge. No projection is needed, and a part behind the eye does no harm:
 /// the cone lies on one side of the occluder's plane.
 fn remove_shadow(
-    scene: &Scene,
+    scene: &PlateScene,
     eye: DVec3,
     target: usize,
     occluder: usize,

@@ -22,15 +22,15 @@ macro_rules! tracer {
             use super::*;
             use photon_mapping::scene::Scene;
 
-            struct Face {
+            struct PreparedFace {
                 vertices: [$vector; 3],
                 normal: $vector,
                 probability_of_reflection: $scalar,
             }
 
             /// A scene in this precision, with its first light.
-            pub struct Tracer {
-                faces: Vec<Face>,
+            pub struct PrecisionTracer {
+                faces: Vec<PreparedFace>,
                 light: $vector,
                 offset: $scalar,
             }
@@ -39,13 +39,13 @@ macro_rules! tracer {
                 <$vector>::new(vector.x.into(), vector.y.into(), vector.z.into())
             }
 
-            impl Tracer {
+            impl PrecisionTracer {
                 /// The scene and its first light; scattered rays start `offset` along the normal.
                 pub fn new(scene: &Scene, offset: f64) -> Self {
                     let face = |triangle: &photon_mapping::scene::triangle::Triangle| {
                         let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
                         let diffuse = mesh_object.material.base_diffuse_reflection();
-                        Face {
+                        PreparedFace {
                             vertices: triangle.vertices.map(widen),
                             normal: widen(triangle.normal),
                             probability_of_reflection: diffuse.max_element().into(),
@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn single_precision_is_the_reference() {
         let renderer = assignment8::create_renderer(assignment8::create_scene());
-        let tracer = single::Tracer::new(&renderer.stored_scene, LARGE_EPSILON.into());
+        let tracer = single::PrecisionTracer::new(&renderer.stored_scene, LARGE_EPSILON.into());
         let mut path = Path::default();
         renderer.generic_photon_map_generation(&mut Vec::new(), 0..20_000, |photon, known, _| {
             tracer.trace(&mut photon_random(renderer.seed, photon), &mut path);

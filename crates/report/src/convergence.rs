@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::Section;
+use super::PageSection;
 use super::csv::{Table, digits, percent, short};
 use super::plot::{Axes, Line, Mark, draw};
 use super::speed_runs::{Speed, SpeedRun};
@@ -89,14 +89,14 @@ impl Speed {
 }
 
 /// The section of the page.
-pub fn section(speed: &Speed) -> Section {
+pub fn section(speed: &Speed) -> PageSection {
     let curves = speed.curves();
     let files = vec![
         ("speed-runs.csv", speed.runs_table().csv()),
         ("speed.csv", details(speed, &curves).csv()),
         ("speed.svg", plot(speed, &curves)),
     ];
-    Section { markdown: markdown(speed, &curves), files }
+    PageSection { markdown: markdown(speed, &curves), files }
 }
 
 /// Errors by size and quantity, with their intervals; last by scope, over all of its quantities.

@@ -40,7 +40,7 @@ pub const FILES: [&str; 12] = [
 ];
 
 /// A part of the page, and the files it shows or rests on.
-pub struct Section {
+pub struct PageSection {
     /// Markdown, with its heading.
     pub markdown: String,
     /// Names out of [`FILES`], and what is in them.

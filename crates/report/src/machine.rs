@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::Section;
+use super::PageSection;
 use super::plan::Plan;
 use photon_mapping::assignment8;
 
 /// The section of the page.
-pub fn section(plan: &Plan) -> Section {
+pub fn section(plan: &Plan) -> PageSection {
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
     let seeds = |size, count| {
         let (first, last) = (Plan::seed(size, 0), Plan::seed(size, count - 1));
@@ -39,7 +39,7 @@ pub fn section(plan: &Plan) -> Section {
     row("what is expected", "`photon-mapping expect --json`");
     text += "\nCounts and errors repeat to the last digit on any machine. Seconds do not, and \
              other work on the machine is in them. Compare ratios within one report.\n";
-    Section { markdown: text, files: Vec::new() }
+    PageSection { markdown: text, files: Vec::new() }
 }
 
 /// The processor's name, where the system tells it.

@@ -4,15 +4,15 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::Section;
+use super::PageSection;
 use super::csv::{Table, digits, short};
 use super::hits::{look_at_paths, surface_hits};
-use super::judge::{Judge, Verdict};
+use super::judge::{HitJudge, HitVerdict};
 use super::plan::Plan;
 use super::plot::{Axes, Line, Mark, draw};
-use super::rules::{Rule, cases};
+use super::rules::{HitRule, cases};
 use super::statistics::most_per_million;
-use super::transform::{Place, as_it_comes, as_loaded};
+use super::transform::{Displacement, as_it_comes, as_loaded};
 use super::true_paths::TruePaths;
 use fast::lanes::offset::Offset;
 use model::facets::facet_of_triangles;
@@ -22,10 +22,10 @@ use variants::reading::Reading;
 use variants::run::Run;
 
 /// What happened under one rule in one place.
-pub struct Case {
-    rule: Rule,
-    place: Place,
-    verdict: Verdict,
+pub struct OffsetCase {
+    rule: HitRule,
+    place: Displacement,
+    verdict: HitVerdict,
     /// Hits that the path should have made and did not, and the other way round.
     lost: u64,
     extra: u64,
@@ -35,14 +35,14 @@ pub struct Case {
     seconds: f64,
 }
 
-impl Case {
+impl OffsetCase {
     fn per_million(&self, count: u64) -> f64 {
         count as f64 * 1e6 / self.emitted as f64
     }
 
     /// Self-hits, leaks, lost and extra photons, per million emitted.
     fn wrongs(&self) -> [f64; 4] {
-        let Verdict { self_hits, leaks, .. } = self.verdict;
+        let HitVerdict { self_hits, leaks, .. } = self.verdict;
         [self_hits, leaks, self.lost, self.extra].map(|count| self.per_million(count))
     }
 
@@ -53,7 +53,7 @@ impl Case {
 
 /// All cases, and how many photons they should have stored.
 pub struct Offsets {
-    cases: Vec<Case>,
+    cases: Vec<OffsetCase>,
     true_stored: u64,
 }
 
@@ -71,28 +71,28 @@ pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Offsets {
 
 /// What a piece of the work found.
 #[derive(Default)]
-struct Found {
-    verdict: Verdict,
+struct OffsetCounts {
+    verdict: HitVerdict,
     lost: u64,
     extra: u64,
     stored: u64,
 }
 
-fn trace(rule: Rule, place: Place, photons: u64, truth: &TruePaths) -> Case {
+fn trace(rule: HitRule, place: Displacement, photons: u64, truth: &TruePaths) -> OffsetCase {
     let (scene, offset) = match rule {
-        Rule::None => (as_it_comes(place), Offset::None),
-        Rule::Fixed(length) => (as_it_comes(place), Offset::AlongNormal(length)),
-        Rule::Reference => (as_loaded(place), Reading::REFERENCE.offset),
+        HitRule::None => (as_it_comes(place), Offset::None),
+        HitRule::Fixed(length) => (as_it_comes(place), Offset::AlongNormal(length)),
+        HitRule::Reference => (as_loaded(place), Reading::REFERENCE.offset),
     };
-    let judge = Judge::new(&scene);
+    let judge = HitJudge::new(&scene);
     let mut run = Run::of_scene(scene, Placement::WORLD, SEED, photons);
     run.reading = Reading { offset, ..Reading::REFERENCE };
     // With walls that are hit again and again, a path would not end for long.
     run.renderer.max_photon_bounces = 50;
     let facets = facet_of_triangles(run.scene());
     let start = Instant::now();
-    let pieces = look_at_paths(&run, 0..photons, |found: &mut Found, photon, path| {
-        let mut verdict = Verdict::default();
+    let pieces = look_at_paths(&run, 0..photons, |found: &mut OffsetCounts, photon, path| {
+        let mut verdict = HitVerdict::default();
         judge.look(run.scene(), path, &mut verdict);
         let hits = surface_hits(path).map(|hit| facets[hit.intersected_primitive]);
         if let Some(parting) = truth.part(photon, hits) {
@@ -109,7 +109,7 @@ fn trace(rule: Rule, place: Place, photons: u64, truth: &TruePaths) -> Case {
         found.stored += (path.len() as u64).saturating_sub(2);
     });
     let seconds = start.elapsed().as_secs_f64();
-    let (mut verdict, mut lost, mut extra, mut stored) = (Verdict::default(), 0, 0, 0);
+    let (mut verdict, mut lost, mut extra, mut stored) = (HitVerdict::default(), 0, 0, 0);
     for piece in pieces {
         verdict.self_hits += piece.verdict.self_hits;
         verdict.leaks += piece.verdict.leaks;
@@ -118,21 +118,21 @@ fn trace(rule: Rule, place: Place, photons: u64, truth: &TruePaths) -> Case {
         extra += piece.extra;
         stored += piece.stored;
     }
-    Case { rule, place, verdict, lost, extra, stored, emitted: photons, seconds }
+    OffsetCase { rule, place, verdict, lost, extra, stored, emitted: photons, seconds }
 }
 
 /// The section of the page.
-pub fn section(plan: &Plan, offsets: &Offsets) -> Section {
+pub fn section(plan: &Plan, offsets: &Offsets) -> PageSection {
     let mut csv = Table::new(
         "rule place amount emitted self_hits leaks lost extra wrong_per_million stored true_stored \
          nanoseconds_per_photon",
     );
     for case in &offsets.cases {
         let (place, amount) = match case.place {
-            Place::Scaled(factor) => ("scaled", factor),
-            Place::Moved(distance) => ("moved", distance),
+            Displacement::Scaled(factor) => ("scaled", factor),
+            Displacement::Moved(distance) => ("moved", distance),
         };
-        let Verdict { self_hits, leaks, .. } = case.verdict;
+        let HitVerdict { self_hits, leaks, .. } = case.verdict;
         let names = [case.rule.name(), place.to_owned(), format!("{amount:e}")];
         let counts = [case.emitted, self_hits, leaks, case.lost, case.extra];
         let wrong = digits(case.wrong());
@@ -142,7 +142,7 @@ pub fn section(plan: &Plan, offsets: &Offsets) -> Section {
         csv.push(cells.chain(stored.map(|count| count.to_string())).chain([time]));
     }
     let files = vec![("offset.csv", csv.csv()), ("offset.svg", plot(&offsets.cases))];
-    Section { markdown: markdown(plan, offsets), files }
+    PageSection { markdown: markdown(plan, offsets), files }
 }
 
 fn markdown(plan: &Plan, offsets: &Offsets) -> String {
@@ -164,18 +164,18 @@ fn markdown(plan: &Plan, offsets: &Offsets) -> String {
         short(most_per_million(plan.offset_photons), 2)
     );
     let places = [
-        Place::Scaled(1e-4),
-        Place::Scaled(1e-2),
-        Place::Scaled(1.0),
-        Place::Scaled(1e2),
-        Place::Scaled(1e4),
-        Place::Moved(1e2),
-        Place::Moved(1e4),
-        Place::Moved(1e5),
+        Displacement::Scaled(1e-4),
+        Displacement::Scaled(1e-2),
+        Displacement::Scaled(1.0),
+        Displacement::Scaled(1e2),
+        Displacement::Scaled(1e4),
+        Displacement::Moved(1e2),
+        Displacement::Moved(1e4),
+        Displacement::Moved(1e5),
     ];
     let heads = places.map(|place| match place {
-        Place::Scaled(factor) => format!("x {factor:.0e}"),
-        Place::Moved(distance) => format!("+ {distance:.0e}"),
+        Displacement::Scaled(factor) => format!("x {factor:.0e}"),
+        Displacement::Moved(distance) => format!("+ {distance:.0e}"),
     });
     let mut table = Table::with_heads(
         ["offset"]
@@ -187,19 +187,19 @@ fn markdown(plan: &Plan, offsets: &Offsets) -> String {
         let mut all = cases.iter();
         all.find(|case| case.rule == rule && case.place == place).expect("all cases are traced")
     };
-    for rule in Rule::all() {
+    for rule in HitRule::all() {
         let cells = places.map(|place| {
             find(rule, place).wrongs().map(|number| format!("{number:.0}")).join(" / ")
         });
-        let at_home = find(rule, Place::Scaled(1.0));
+        let at_home = find(rule, Displacement::Scaled(1.0));
         let change = at_home.stored as f64 / offsets.true_stored as f64 - 1.0;
         let time = short(at_home.seconds * 1e9 / at_home.emitted as f64, 3);
         let last = [signed_percent(change), time];
         table.push([rule.name()].into_iter().chain(cells).chain(last));
     }
     text += &table.markdown();
-    let of_reference = cases.iter().filter(|case| case.rule == Rule::Reference);
-    let worst = of_reference.map(Case::wrong).fold(0.0, f64::max);
+    let of_reference = cases.iter().filter(|case| case.rule == HitRule::Reference);
+    let worst = of_reference.map(OffsetCase::wrong).fold(0.0, f64::max);
     let _ = writeln!(
         text,
         "\n- The reference's rule, in its worst place: **{} wrong per million**{}.",
@@ -219,18 +219,18 @@ fn signed_percent(change: f64) -> String {
 
 /// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be
 /// seen.
-fn plot(cases: &[Case]) -> String {
+fn plot(cases: &[OffsetCase]) -> String {
     let shown = [
-        (Rule::None, Mark::Circles),
-        (Rule::Fixed(1e-7), Mark::Circles),
-        (Rule::Fixed(1e-5), Mark::Circles),
-        (Rule::Fixed(1e-3), Mark::Circles),
-        (Rule::Reference, Mark::Hollow),
+        (HitRule::None, Mark::Circles),
+        (HitRule::Fixed(1e-7), Mark::Circles),
+        (HitRule::Fixed(1e-5), Mark::Circles),
+        (HitRule::Fixed(1e-3), Mark::Circles),
+        (HitRule::Reference, Mark::Hollow),
     ];
-    let lines = |amount: fn(Place) -> Option<f64>| -> Vec<Line> {
-        let line = |(colour, (rule, mark)): (usize, &(Rule, Mark))| {
+    let lines = |amount: fn(Displacement) -> Option<f64>| -> Vec<Line> {
+        let line = |(colour, (rule, mark)): (usize, &(HitRule, Mark))| {
             let of_rule = cases.iter().filter(|case| case.rule == *rule);
-            let point = |case: &Case| {
+            let point = |case: &OffsetCase| {
                 let half_a_photon = 0.5e6 / case.emitted as f64;
                 let wrong = if case.wrong() == 0.0 { half_a_photon } else { case.wrong() };
                 Some((amount(case.place)?, wrong))
@@ -251,12 +251,12 @@ fn plot(cases: &[Case]) -> String {
         y: "wrong per million emitted (0: as half a photon)".to_owned(),
     };
     let scaled = lines(|place| match place {
-        Place::Scaled(factor) => Some(factor),
-        Place::Moved(_) => None,
+        Displacement::Scaled(factor) => Some(factor),
+        Displacement::Moved(_) => None,
     });
     let moved = lines(|place| match place {
-        Place::Scaled(_) => None,
-        Place::Moved(distance) => Some(distance),
+        Displacement::Scaled(_) => None,
+        Displacement::Moved(distance) => Some(distance),
     });
     draw(&[
         (axes("Self-hits, leaks and lost photons, scene scaled", "scale of the scene"), scaled),
@@ -274,14 +274,14 @@ mod tests {
     fn losses_are_counted_photon_by_photon() {
         let photons = 1_000_000;
         let truth = TruePaths::trace(photons);
-        let of_rule = |rule| trace(rule, Place::Scaled(1.0), photons, &truth);
-        let change = |case: &Case| case.stored as f64 / truth.stored() as f64 - 1.0;
-        let reference = of_rule(Rule::Fixed(1e-5));
+        let of_rule = |rule| trace(rule, Displacement::Scaled(1.0), photons, &truth);
+        let change = |case: &OffsetCase| case.stored as f64 / truth.stored() as f64 - 1.0;
+        let reference = of_rule(HitRule::Fixed(1e-5));
         assert!(reference.wrong() < 10.0, "{}", reference.wrong());
         assert!(change(&reference).abs() < 5e-4);
-        let known = of_rule(Rule::Fixed(1e-2));
+        let known = of_rule(HitRule::Fixed(1e-2));
         assert!((change(&known) + 0.005).abs() < 0.0025, "{}", change(&known));
-        let far = of_rule(Rule::Fixed(1e-1));
+        let far = of_rule(HitRule::Fixed(1e-1));
         assert!(change(&far) < -0.03, "{}", change(&far));
         assert!(far.lost > 5 * known.lost && known.lost > 50 * reference.lost.max(1));
         for case in [reference, known, far] {

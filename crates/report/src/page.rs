@@ -1,10 +1,10 @@
 //! The page that the sections make.
 
-use super::Section;
+use super::PageSection;
 use super::plan::Plan;
 
 /// The page.
-pub fn assemble(plan: &Plan, sections: &[Section]) -> String {
+pub fn assemble(plan: &Plan, sections: &[PageSection]) -> String {
     let mut page = format!(
         "# Speed and accuracy\n\n\
          This page measures what the number of photons, precision, offset and sampler do to the \

@@ -65,8 +65,8 @@ const WIDTH: u32 = 900;
 const LEGEND: u32 = 220;
 const HEIGHT: u32 = 460;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Failure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+type PlotArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type DrawingFailure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// Draws the plots below one another and gives the SVG.
 pub fn draw(plots: &[(Axes, Vec<Line>)]) -> String {
@@ -80,7 +80,10 @@ pub fn draw(plots: &[(Axes, Vec<Line>)]) -> String {
     svg
 }
 
-fn draw_all<'a>(root: &Area<'a>, plots: &[(Axes, Vec<Line>)]) -> Result<(), Failure<'a>> {
+fn draw_all<'a>(
+    root: &PlotArea<'a>,
+    plots: &[(Axes, Vec<Line>)],
+) -> Result<(), DrawingFailure<'a>> {
     root.fill(&WHITE)?;
     for (area, (axes, lines)) in root.split_evenly((plots.len(), 1)).iter().zip(plots) {
         draw_one(area, axes, lines)?;
@@ -88,7 +91,11 @@ fn draw_all<'a>(root: &Area<'a>, plots: &[(Axes, Vec<Line>)]) -> Result<(), Fail
     root.present()
 }
 
-fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Failure<'a>> {
+fn draw_one<'a>(
+    area: &PlotArea<'a>,
+    axes: &Axes,
+    lines: &[Line],
+) -> Result<(), DrawingFailure<'a>> {
     let (area, legend) = area.split_horizontally(WIDTH - LEGEND);
     let points = || lines.iter().flat_map(|line| line.points.iter());
     let (x_low, x_high) = range(points().map(|point| point.0));
@@ -139,7 +146,7 @@ fn draw_one<'a>(area: &Area<'a>, axes: &Axes, lines: &[Line]) -> Result<(), Fail
 }
 
 /// Names the lines, beside the plot, where nothing is hidden.
-fn draw_legend<'a>(area: &Area<'a>, lines: &[Line]) -> Result<(), Failure<'a>> {
+fn draw_legend<'a>(area: &PlotArea<'a>, lines: &[Line]) -> Result<(), DrawingFailure<'a>> {
     for (row, line) in lines.iter().enumerate() {
         let y = 60 + 24 * row as i32;
         let colour = PALETTE[line.colour % PALETTE.len()];

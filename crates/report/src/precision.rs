@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::Section;
+use super::PageSection;
 use super::both_precisions::{Path, double, single};
 use super::csv::{Table, digits, short};
 use super::plan::Plan;
@@ -45,8 +45,10 @@ pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Precision {
     let scene = assignment8::create_scene();
     let facets = facet_of_triangles(&scene);
     let offset = LARGE_EPSILON.into();
-    let (single, double) =
-        (single::Tracer::new(&scene, offset), double::Tracer::new(&scene, offset));
+    let (single, double) = (
+        single::PrecisionTracer::new(&scene, offset),
+        double::PrecisionTracer::new(&scene, offset),
+    );
     let pieces: Vec<_> = (0..plan.precision_photons)
         .step_by(PIECE as usize)
         .map(|start| start..plan.precision_photons.min(start + PIECE))
@@ -125,7 +127,7 @@ impl Precision {
 }
 
 /// The section of the page.
-pub fn section(precision: &Precision) -> Section {
+pub fn section(precision: &Precision) -> PageSection {
     let other = precision.emission + precision.other_facet + precision.hit_or_escape;
     let mut text =
         String::from("## 2. Precision\n\n![Distance between f32 and f64](precision.svg)\n\n");
@@ -196,7 +198,7 @@ pub fn section(precision: &Precision) -> Section {
         ("precision-summary.csv", summary.csv()),
         ("precision.svg", plot(precision)),
     ];
-    Section { markdown: text, files }
+    PageSection { markdown: text, files }
 }
 
 /// For every hit, the share of points that are farther off than a distance.

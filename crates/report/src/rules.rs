@@ -1,11 +1,11 @@
 //! The rules for where a scattered ray starts that the report holds side by side, and in which
 //! places.
 
-use super::transform::Place;
+use super::transform::Displacement;
 
 /// How rays are started.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rule {
+pub enum HitRule {
     /// At the point hit.
     None,
     /// This far along the normal, in the units of the scene as it comes.
@@ -14,7 +14,7 @@ pub enum Rule {
     Reference,
 }
 
-impl Rule {
+impl HitRule {
     /// All rules of the report.
     pub fn all() -> Vec<Self> {
         let fixed = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1].map(Self::Fixed);
@@ -32,7 +32,7 @@ impl Rule {
 }
 
 /// All pairs of rule and place.
-pub fn cases() -> Vec<(Rule, Place)> {
-    let of_place = |place| Rule::all().into_iter().map(move |rule| (rule, place));
-    Place::all().into_iter().flat_map(of_place).collect()
+pub fn cases() -> Vec<(HitRule, Displacement)> {
+    let of_place = |place| HitRule::all().into_iter().map(move |rule| (rule, place));
+    Displacement::all().into_iter().flat_map(of_place).collect()
 }

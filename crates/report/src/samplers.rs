@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use super::Section;
+use super::PageSection;
 use super::csv::{Table, digits, percent, short};
 use super::hits::hits_by_bounce;
 use super::plan::Plan;
@@ -97,7 +97,7 @@ impl Samplers {
 }
 
 /// The section of the page.
-pub fn section(samplers: &Samplers) -> Section {
+pub fn section(samplers: &Samplers) -> PageSection {
     let mut csv = Table::new(
         "emitted quantity chacha_rms sobol_rms variance_ratio ratio_low ratio_high chacha_seconds \
          sobol_seconds",
@@ -119,7 +119,7 @@ pub fn section(samplers: &Samplers) -> Section {
         ("sampler.csv", csv.csv()),
         ("sampler.svg", plot(samplers)),
     ];
-    Section { markdown: markdown(samplers), files }
+    PageSection { markdown: markdown(samplers), files }
 }
 
 fn markdown(samplers: &Samplers) -> String {

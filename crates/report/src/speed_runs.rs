@@ -59,7 +59,7 @@ pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Speed {
     Speed { sizes: plan.sizes.clone(), seeds: plan.seeds, runs, expected, surfaces }
 }
 
-fn run(base: &PhotonMappingRenderer, planes: &[Plane], seed: u64, emitted: u64) -> SpeedRun {
+fn run(base: &PhotonMappingRenderer, planes: &[PlanePoints], seed: u64, emitted: u64) -> SpeedRun {
     let renderer = PhotonMappingRenderer { seed, photon_count: emitted, ..base.clone() };
     let mut stored = vec![0; planes.len()];
     let start = Instant::now();
@@ -71,30 +71,30 @@ fn run(base: &PhotonMappingRenderer, planes: &[Plane], seed: u64, emitted: u64) 
 }
 
 /// The plane of a facet.
-struct Plane {
+struct PlanePoints {
     surface: usize,
     point: DVec3,
     normal: DVec3,
 }
 
-fn planes(scene: &Scene) -> Vec<Plane> {
-    let mut planes: Vec<Plane> = Vec::new();
+fn planes(scene: &Scene) -> Vec<PlanePoints> {
+    let mut planes: Vec<PlanePoints> = Vec::new();
     for (triangle, facet) in scene.triangles().iter().zip(facet_of_triangles(scene)) {
         if facet == planes.len() {
             let [a, b, c] = triangle.vertices.map(|vertex| vertex.as_dvec3());
             let normal = (b - a).cross(c - a).normalize();
-            planes.push(Plane { surface: triangle.parent_mesh_object, point: a, normal });
+            planes.push(PlanePoints { surface: triangle.parent_mesh_object, point: a, normal });
         }
     }
     planes
 }
 
 /// The facet a photon lies on: a list names its surface, so it is the nearest plane of that.
-fn facet(record: &PhotonRecord, planes: &[Plane]) -> usize {
+fn facet(record: &PhotonRecord, planes: &[PlanePoints]) -> usize {
     let position = record.position.as_dvec3();
     let of_surface =
         planes.iter().enumerate().filter(|(_, plane)| plane.surface == usize::from(record.surface));
-    let distance = |plane: &Plane| plane.normal.dot(position - plane.point).abs();
+    let distance = |plane: &PlanePoints| plane.normal.dot(position - plane.point).abs();
     of_surface
         .min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))
         .expect("every surface has a facet")

@@ -12,14 +12,14 @@ use photon_mapping::scene::triangle::Triangle;
 
 /// Where the scene is put.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum Displacement {
     /// All lengths times this.
     Scaled(f64),
     /// This far along each of the three axes, in scene units.
     Moved(f64),
 }
 
-impl Place {
+impl Displacement {
     /// All places of the report.
     pub fn all() -> Vec<Self> {
         let scales = [1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3, 1e4];
@@ -44,7 +44,7 @@ fn figures(point: glam::Vec3) -> DVec3 {
 
 /// The scene with its figures put in `place` and then rounded to f32: what a program traces that
 /// takes a model as it comes.
-pub fn as_it_comes(place: Place) -> Scene {
+pub fn as_it_comes(place: Displacement) -> Scene {
     let scene = assignment8::create_scene();
     let put = |point| place.apply(figures(point)).as_vec3();
     let triangles = scene
@@ -59,7 +59,7 @@ pub fn as_it_comes(place: Place) -> Scene {
 }
 
 /// The scene put in `place` as a model file, read as the program reads a user's model.
-pub fn as_loaded(place: Place) -> Scene {
+pub fn as_loaded(place: Displacement) -> Scene {
     let scene = assignment8::create_scene();
     let (text, materials) = model_text(&scene, place);
     let model = obj::parse(&text, |_| Ok(materials.clone())).expect("the text is well formed");
@@ -71,7 +71,7 @@ pub fn as_loaded(place: Place) -> Scene {
 }
 
 /// The model in `place` as OBJ, y up, and its materials.
-fn model_text(scene: &Scene, place: Place) -> (String, String) {
+fn model_text(scene: &Scene, place: Displacement) -> (String, String) {
     let mut text = String::from("mtllib materials\n");
     let mut materials = String::new();
     for (number, mesh_object) in scene.mesh_objects().iter().enumerate() {
@@ -108,8 +108,8 @@ mod tests {
     #[test]
     fn scene_in_its_own_place_is_itself() {
         let scene = assignment8::create_scene();
-        assert_eq!(as_it_comes(Place::Scaled(1.0)).triangles(), scene.triangles());
-        let loaded = as_loaded(Place::Scaled(1.0));
+        assert_eq!(as_it_comes(Displacement::Scaled(1.0)).triangles(), scene.triangles());
+        let loaded = as_loaded(Displacement::Scaled(1.0));
         assert_eq!(loaded.lights(), scene.lights());
         for (loaded, known) in loaded.triangles().iter().zip(scene.triangles()) {
             assert_eq!(loaded.vertices, known.vertices);

@@ -20,7 +20,7 @@ impl TruePaths {
     pub fn trace(photons: u64) -> Self {
         let scene = assignment8::create_scene();
         let facets = facet_of_triangles(&scene);
-        let tracer = double::Tracer::new(&scene, START);
+        let tracer = double::PrecisionTracer::new(&scene, START);
         let trace = |path: &mut Path, photon| {
             tracer.trace(&mut photon_random(assignment8::SEED, photon), path);
             path.hits.iter().map(|(triangle, _)| facets[*triangle]).collect()

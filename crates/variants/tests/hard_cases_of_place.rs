@@ -19,7 +19,7 @@ use photon_mapping::scene::numerics::LARGE_EPSILON;
 use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::triangle::Triangle;
 use report::both_precisions::Path;
-use report::both_precisions::double::Tracer;
+use report::both_precisions::double::PrecisionTracer;
 use variants::reading::Reading;
 use variants::run::Run;
 
@@ -127,7 +127,7 @@ fn small_detail_on_a_wide_plain() {
             .map(|light| PointLight { position: light.position * unit, ..*light });
         let world =
             Scene::new(scene.mesh_objects().to_vec(), triangles.collect(), lights.collect());
-        let double = Tracer::new(&world, LARGE_EPSILON.into());
+        let double = PrecisionTracer::new(&world, LARGE_EPSILON.into());
         let mut others = 0_u32;
         let mut exact = Path::default();
         run.trace_photons(0..count, |photon, path, _| {

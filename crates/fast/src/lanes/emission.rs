@@ -15,7 +15,7 @@ pub const DRAWN_IN_VAIN: u32 = 15;
 
 /// The points in the sphere that [`GROUP`] photons drew.
 #[derive(Clone, Debug)]
-pub struct Emission {
+pub struct LaneEmission {
     /// The accepted point in the unit sphere, by coordinate.
     pub point: [[f32; GROUP]; 3],
     /// How many numbers were drawn; 0 when the block held no point in the sphere.
@@ -26,7 +26,7 @@ pub struct Emission {
     pub cell: [u32; GROUP],
 }
 
-impl Default for Emission {
+impl Default for LaneEmission {
     fn default() -> Self {
         Self {
             point: [[0.0; GROUP]; 3],
@@ -44,7 +44,7 @@ pub struct Emit<'a> {
     /// The number of the first photon; [`GROUP`] follow, and all are below 2^32 or not looked at.
     pub first: u32,
     /// Where the points go.
-    pub emission: &'a mut Emission,
+    pub emission: &'a mut LaneEmission,
 }
 
 impl NullaryFnOnce for Emit<'_> {
@@ -52,7 +52,7 @@ impl NullaryFnOnce for Emit<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Emission { point, drawn, next, cell } = self.emission;
+        let LaneEmission { point, drawn, next, cell } = self.emission;
         let [xs, ys, zs] = point;
         let [next_0, next_1, next_2] = next;
         for lane in 0..GROUP {

@@ -72,7 +72,7 @@ pub struct LaneTracer<'renderer> {
     renderer: &'renderer PhotonMappingRenderer,
     width: Width,
     corners: SharedCorners,
-    surfaces: Vec<Surface>,
+    surfaces: Vec<LaneSurface>,
     offset: Offset,
     /// What each light sees.
     outlooks: Vec<Outlook>,
@@ -80,14 +80,14 @@ pub struct LaneTracer<'renderer> {
 
 /// What a photon needs to know of a triangle that it hits.
 #[derive(Clone, Copy, Debug)]
-struct Surface {
+struct LaneSurface {
     mesh_object: u16,
     probability_of_reflection: f32,
     /// The columns of [`tangent_frame`], one after another.
     frame: [f32; 9],
 }
 
-impl Surface {
+impl LaneSurface {
     fn new(renderer: &PhotonMappingRenderer, triangle: &Triangle, frame: Mat3) -> Option<Self> {
         let mesh_object = &renderer.stored_scene.mesh_objects()[triangle.parent_mesh_object];
         Some(Self {
@@ -117,9 +117,10 @@ impl<'renderer> LaneTracer<'renderer> {
         if scene.triangles().len() > MOST_TRIANGLES || renderer.emitted() > 1 << 32 {
             return None;
         }
-        let surface =
-            |triangle: &Triangle| Surface::new(renderer, triangle, tangent_frame(triangle.normal));
-        let surfaces: Vec<Surface> =
+        let surface = |triangle: &Triangle| {
+            LaneSurface::new(renderer, triangle, tangent_frame(triangle.normal))
+        };
+        let surfaces: Vec<LaneSurface> =
             scene.triangles().iter().map(surface).collect::<Option<_>>()?;
         let reflection: Vec<f32> = surfaces.iter().map(|s| s.probability_of_reflection).collect();
         let outlook = |light: &PointLight| Outlook::new(scene, light.position, &reflection);

@@ -156,7 +156,11 @@ impl Outlook {
         let mut triangles = Vec::new();
         for face in 0..6 {
             let corners = &seen[face / 2];
-            let face = Face { corners, is_negative: face % 2 == 1, first_cell: face * EDGE * EDGE };
+            let face = OccluderFace {
+                corners,
+                is_negative: face % 2 == 1,
+                first_cell: face * EDGE * EDGE,
+            };
             let all: Vec<u32> = (0..corners.len() as u32).collect();
             face.divide(&all, [0, 0], EDGE, &mut |cell, of_cell| {
                 let start = triangles.len();
@@ -208,14 +212,14 @@ impl Outlook {
 }
 
 /// One face of the cube.
-struct Face<'a> {
+struct OccluderFace<'a> {
     /// The corners of all triangles, in the order of a ray through this face.
     corners: &'a [[Vec3; 3]],
     is_negative: bool,
     first_cell: usize,
 }
 
-impl Face<'_> {
+impl OccluderFace<'_> {
     /// Gives `found` every cell of the square of `edge` cells from row and column `start` on, with
     /// those of `triangles` that a ray through it may meet. What a quarter does not meet, none of
     /// its cells does.

@@ -61,7 +61,7 @@ pub fn take_picture(
     let corners = SharedCorners::new(&renderer.stored_scene);
     let mut picture = image::RgbImage::new(width, height);
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each_init(
-        || Tracer {
+        || PictureTracer {
             renderer,
             lanes,
             corners: &corners,
@@ -94,7 +94,7 @@ pub fn take_picture(
     CheckedPicture { picture, difference }
 }
 
-struct Tracer<'a> {
+struct PictureTracer<'a> {
     renderer: &'a PhotonMappingRenderer,
     lanes: Width,
     corners: &'a SharedCorners,
@@ -102,7 +102,7 @@ struct Tracer<'a> {
     hits: Hits,
 }
 
-impl Tracer<'_> {
+impl PictureTracer<'_> {
     /// What [`PhotonMappingRenderer::compute_sample_color`] gives for each of at most [`GROUP`]
     /// rays.
     fn sample_colors(&mut self, camera_rays: &[Ray]) -> Vec<Vec3> {

@@ -8,11 +8,11 @@ use glam::Vec3;
 use super::chacha::{self, number};
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
-use super::emission::{self, Aim, Aims, Emission, Emit, coordinate, is_in_sphere};
+use super::emission::{self, Aim, Aims, Emit, LaneEmission, coordinate, is_in_sphere};
 use super::first_hit::{FirstHit, FirstHits};
 use super::outlook::Outlook;
 use super::scattering::Scatter;
-use super::{LaneTracer, Surface};
+use super::{LaneSurface, LaneTracer};
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::ray::Ray;
@@ -85,7 +85,7 @@ impl LaneTracer<'_> {
         join(&by_bounce, records);
     }
 
-    fn surface(&self, arrival: &Arrival) -> &Surface {
+    fn surface(&self, arrival: &Arrival) -> &LaneSurface {
         &self.surfaces[arrival.triangle as usize]
     }
 
@@ -128,7 +128,7 @@ impl LaneTracer<'_> {
     /// Those of the photons `photons` that may hit something and be reflected there, in order, with
     /// directions that are not yet normalised.
     fn depart(&self, outlook: &Outlook, photons: Range<u64>) -> Vec<Departure> {
-        let mut emission = Emission::default();
+        let mut emission = LaneEmission::default();
         // Of the handout's photons, one in five.
         let expected = (photons.end - photons.start) as usize / 4;
         let mut departures: Vec<Departure> = Vec::with_capacity(expected);
