@@ -2,43 +2,19 @@
 
 use std::fmt::Write as _;
 
-use crate::report::{Builds, Report};
+use crate::report::Report;
 use crate::sections::{Status, Verdict};
 
-/// The report as text.
+/// The report as text, without its first line, which is the grade's.
 pub fn text(report: &Report) -> String {
-    let mut text = format!("{}\n", report.submission);
+    let mut text = String::new();
     let mut line = |words: String| writeln!(text, "{words}").expect("a string takes everything");
-    match &report.builds {
-        Builds::Yes => line("  builds: yes".to_owned()),
-        Builds::MissingFile { file } => line(format!("  builds: no, there is no file {file}")),
-        Builds::EndsAtOnce { what } => line(format!(
-            "  builds: yes, but the program {what} before any function of the assignment is called: look at \
-             static variables and their constructors"
-        )),
-        Builds::No(error) => {
-            let place = match (&error.file, error.line) {
-                (Some(file), Some(number)) => format!("{file}:{number}: "),
-                _ => String::new(),
-            };
-            line(format!("  builds: no\n    {place}{}", error.message));
-            if let Some(missing) = &error.missing {
-                line(format!("    `{missing}` is declared in no file you handed in"));
-            }
-        }
-    }
+    line(format!("  builds: {}", report.builds.sentence()));
     for verdict in &report.sections {
         section(verdict, &mut line);
     }
     if !report.sections.is_empty() {
-        let whole = &report.whole;
-        match (&whole.death, whole.stored) {
-            (Some(death), _) => line(format!("  the whole: {death}")),
-            (None, Some(stored)) => {
-                line(format!("  the whole: {stored} photons stored, {} sent out", whole.photons));
-            }
-            (None, None) => line("  the whole: not reached".to_owned()),
-        }
+        line(format!("  the whole: {}", report.whole.sentence()));
     }
     for remark in &report.remarks {
         line(format!("  remark: {remark}"));

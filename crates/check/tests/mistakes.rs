@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use check::find::Submission;
 use check::kit::Kit;
 use check::report::Builds;
-use check::sections::{Section, Status};
+use check::sections::Status;
 use check::{Report, Settings, check};
+use variants::section::Section;
 
 fn submissions() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/submissions")
@@ -69,38 +70,53 @@ fn the_letter_of_the_handout_is_a_fair_reading() {
 #[test]
 fn planted_mistakes_are_told_under_their_section() {
     let mistakes = [
-        ("if (path.size() > 1)", "if (true)", Section::Storage, "direct-stored"),
-        ("hit + 1e-5f * n", "hit", Section::Transformation, "no-offset"),
+        ("if (path.size() > 1)", "if (true)", Section::PhotonStorage, "direct-stored"),
+        ("hit + 1e-5f * n", "hit", Section::HemisphereRayTransformation, "no-offset"),
         (
             "u1 = (float)rand() / RAND_MAX;",
             "v = (float)rand() / RAND_MAX, u1 = 1.f - v * v;",
-            Section::Sampling,
+            Section::HemisphereSampling,
             "uniform-hemisphere",
         ),
-        ("r = std::sqrt(u1)", "r = u1", Section::Sampling, "no-square-root"),
-        ("sum > 1.f || ", "", Section::Emission, "cube-directions"),
+        ("r = std::sqrt(u1)", "r = u1", Section::HemisphereSampling, "no-square-root"),
+        ("sum > 1.f || ", "", Section::PhotonEmission, "cube-directions"),
         (
             "std::max(d.r, std::max(d.g, d.b))",
             "(d.r + d.g + d.b) / 3.f",
-            Section::Scattering,
+            Section::PhotonScatteringAbsorption,
             "mean-roulette",
         ),
-        ("std::max(d.r, std::max(d.g, d.b))", "d.r", Section::Scattering, "red-roulette"),
-        ("RAND_MAX >= pr", "RAND_MAX >= 1.f", Section::Scattering, "no-roulette"),
+        (
+            "std::max(d.r, std::max(d.g, d.b))",
+            "d.r",
+            Section::PhotonScatteringAbsorption,
+            "red-roulette",
+        ),
+        ("RAND_MAX >= pr", "RAND_MAX >= 1.f", Section::PhotonScatteringAbsorption, "no-roulette"),
         (
             "glm::mat3(t, b, n) * sample",
             "glm::transpose(glm::mat3(t, b, n)) * sample",
-            Section::Transformation,
+            Section::HemisphereRayTransformation,
             "transposed-frame",
         ),
         (
             "n = state.ComputeNormal()",
             "n = -state.ComputeNormal()",
-            Section::Transformation,
+            Section::HemisphereRayTransformation,
             "flipped-normal",
         ),
-        ("std::abs(glm::dot(n, axis))", "glm::dot(n, axis)", Section::Transformation, "nan-frame"),
-        ("remainingBounces < 0", "remainingBounces <= 0", Section::Storage, "bounce-off-by-one"),
+        (
+            "std::abs(glm::dot(n, axis))",
+            "glm::dot(n, axis)",
+            Section::HemisphereRayTransformation,
+            "nan-frame",
+        ),
+        (
+            "remainingBounces < 0",
+            "remainingBounces <= 0",
+            Section::PhotonStorage,
+            "bounce-off-by-one",
+        ),
     ];
     let mut wrong = Vec::new();
     for (from, to, section, name) in mistakes {
@@ -119,8 +135,10 @@ fn planted_mistakes_are_told_under_their_section() {
 fn two_mistakes_in_different_sections_are_both_told() {
     let changes = [("sum > 1.f || ", ""), ("r = std::sqrt(u1)", "r = u1")];
     let Some(report) = report(&changes) else { return };
-    let expected =
-        [(Section::Emission, Some("cube-directions")), (Section::Sampling, Some("no-square-root"))];
+    let expected = [
+        (Section::PhotonEmission, Some("cube-directions")),
+        (Section::HemisphereSampling, Some("no-square-root")),
+    ];
     assert_eq!(faults(&report), expected, "{}", check::text::text(&report));
 }
 

@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 
-use super::{Section, Verdict};
+use super::Verdict;
 use crate::events::{Call, Trace};
 use crate::plan::{INTENSITY, Step};
 use crate::run::Observed;
+use variants::section::Section;
 
 /// A position this far off the surface still shows the same dots.
 const OFF_SURFACE: f32 = 7.1e-3;
@@ -26,7 +27,7 @@ const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1
     call of TracePhoton.";
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
-    let mut verdict = Verdict::new(Section::Storage);
+    let mut verdict = Verdict::new(Section::PhotonStorage);
     let calls =
         |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
     let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
@@ -220,7 +221,7 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
         );
         let (name, advice) = match count {
             2 => (
-                "no-recursion",
+                "first-bounce-only",
                 "Call TracePhoton for the scattered ray in every call, not only in the first.",
             ),
             1000 => ("bounce-off-by-one", advice),
