@@ -7,6 +7,11 @@ use grading::verdict::{Finding, Grade, Verdict, Weight};
 use crate::report::{Builds, Report};
 use crate::sections::{self, Status};
 
+/// The names of the checks besides the sections.
+const BUILDS: &str = "builds";
+const WHOLE: &str = "whole run";
+const REMARK: &str = "remark";
+
 /// The grade of `report`, with the photon list and what its statistics say where it stored any.
 ///
 /// A section that is wrong makes a submission incorrect. Where all five are right and the whole run is not
@@ -38,7 +43,7 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
             findings.push(finding.clone());
         }
     }
-    findings.extend(report.remarks.iter().map(|text| remark("remark", "", text, "")));
+    findings.extend(report.remarks.iter().map(|text| remark(REMARK, "", text, "")));
     let faults = || report.sections.iter().flat_map(|verdict| &verdict.faults);
     let misreading = faults().find_map(|fault| fault.name);
     let misreading = misreading.or_else(|| {
@@ -62,10 +67,18 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
     Graded { grade, list: statistics.and_then(|graded| graded.list) }
 }
 
+/// The findings of `grade` that come from the statistics of the list.
+pub fn of_statistics(grade: &Grade) -> impl Iterator<Item = &Finding> {
+    let own = [BUILDS, WHOLE, REMARK];
+    grade.findings.iter().filter(move |finding| {
+        !own.contains(&finding.check) && finding.section != Some(finding.check)
+    })
+}
+
 fn builds(report: &Report) -> Finding {
     let passed = report.builds == Builds::Yes;
     Finding {
-        check: "builds",
+        check: BUILDS,
         section: None,
         expected: "two C++ files that compile and run".to_owned(),
         found: report.builds.sentence(),
@@ -123,10 +136,10 @@ fn whole(report: &Report) -> Option<Finding> {
     // With right sections and numbers of its own, a run need not be the reference's.
     let weight = if report.whole.death.is_some() { Weight::Fault } else { Weight::Remark };
     Some(Finding {
-        check: "whole run",
+        check: WHOLE,
         section: None,
         expected: "the reference's photons, or as many of them everywhere".to_owned(),
-        found: report.whole.sentence(),
+        found: report.whole.sentence(report.is_right()),
         p_value: None,
         passed,
         weight,

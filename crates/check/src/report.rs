@@ -6,7 +6,7 @@ use photon_list::reader::PhotonList;
 use serde::Serialize;
 
 use crate::compile::BuildError;
-use crate::sections::Verdict;
+use crate::sections::{Status, Verdict};
 
 /// Whether the submission builds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,8 +55,9 @@ impl Whole {
         self.drawn.is_some_and(|drawn| drawn < self.photons)
     }
 
-    /// How the run went, in one line.
-    pub fn sentence(&self) -> String {
+    /// How the run went, in one line. Where all sections are right (`is_right`), a list that is not the
+    /// reference's comes of other random numbers.
+    pub fn sentence(&self, is_right: bool) -> String {
         if let Some(death) = &self.death {
             return death.clone();
         }
@@ -80,6 +81,10 @@ impl Whole {
                 "random numbers of its own (not from rand()), so that only statistics can tell; {records} \
                  photons stored"
             ),
+            Outcome::Different if is_right => format!(
+                "random numbers drawn in another way than the reference's, so that only statistics can \
+                 tell; {records} photons stored"
+            ),
             Outcome::Different => self.divergence(report),
         }
     }
@@ -101,6 +106,14 @@ impl Whole {
             section.unwrap_or_default(),
             photon.unwrap_or_default()
         )
+    }
+}
+
+impl Report {
+    /// Whether all sections are right, under whatever fair reading.
+    pub fn is_right(&self) -> bool {
+        let right = [Status::Right, Status::RightUnderAnotherReading];
+        !self.sections.is_empty() && self.sections.iter().all(|v| right.contains(&v.status))
     }
 }
 

@@ -2,19 +2,40 @@
 
 use std::fmt::Write as _;
 
+use grading::text::verdict_in_words;
+use grading::verdict::Grade;
+
+use crate::grade::of_statistics;
 use crate::report::Report;
 use crate::sections::{Status, Verdict};
 
-/// The report as text, without its first line, which is the grade's.
-pub fn text(report: &Report) -> String {
-    let mut text = String::new();
+/// The report and its `grade`, of at most `best` points, as text.
+pub fn text(report: &Report, grade: &Grade, best: f64) -> String {
+    let verdict = verdict_in_words(grade.verdict);
+    let mut text = format!("{}: {verdict}, {} of {best} points\n", grade.submission, grade.score);
     let mut line = |words: String| writeln!(text, "{words}").expect("a string takes everything");
     line(format!("  builds: {}", report.builds.sentence()));
     for verdict in &report.sections {
         section(verdict, &mut line);
     }
     if !report.sections.is_empty() {
-        line(format!("  the whole: {}", report.whole.sentence()));
+        line(format!("  the whole: {}", report.whole.sentence(report.is_right())));
+    }
+    let statistics: Vec<_> = of_statistics(grade).collect();
+    if !statistics.is_empty() {
+        let faults: Vec<_> = statistics.iter().filter(|finding| finding.is_fault()).collect();
+        line(format!(
+            "  statistics: {} of {} checks of the list are as they should be",
+            statistics.len() - faults.len(),
+            statistics.len()
+        ));
+        for finding in faults {
+            line(format!(
+                "    {}: {}; expected {}",
+                finding.check, finding.found, finding.expected
+            ));
+            line(format!("    -> {}", finding.advice));
+        }
     }
     for remark in &report.remarks {
         line(format!("  remark: {remark}"));
@@ -29,7 +50,7 @@ fn section(verdict: &Verdict, line: &mut impl FnMut(String)) {
         Status::RightUnderAnotherReading => {
             format!("right under another fair reading: {}", verdict.readings.join("; "))
         }
-        Status::Wrong => "WRONG".to_owned(),
+        Status::Wrong => "wrong".to_owned(),
         Status::NotReached => "not reached".to_owned(),
     };
     line(format!("  {title}: {status}"));

@@ -1,10 +1,11 @@
 //! Right solutions pass in every section; a planted mistake is told under its section, with its name.
 
+mod support;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use check::find::Submission;
-use check::kit::Kit;
 use check::report::Builds;
 use check::sections::Status;
 use check::{Report, Settings, check};
@@ -16,14 +17,7 @@ fn submissions() -> PathBuf {
 
 /// The report on `one_function`, with each pair's first text replaced by its second.
 fn report(changes: &[(&str, &str)]) -> Option<Report> {
-    let kit = match Kit::new(None) {
-        Ok(kit) => kit,
-        Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
-        Err(error) => {
-            eprintln!("skipped: {error}");
-            return None;
-        }
-    };
+    let kit = support::kit()?;
     let folder = tempfile::tempdir().expect("a folder");
     let mut unused: Vec<_> = changes.to_vec();
     for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
@@ -38,7 +32,13 @@ fn report(changes: &[(&str, &str)]) -> Option<Report> {
     assert!(unused.is_empty(), "{unused:?} is nowhere");
     let submission = Submission::find(folder.path()).expect("a submission");
     let settings = Settings { photons: 2000, ..Settings::default() };
-    Some(check(&submission, &kit, &settings).expect("it can be checked"))
+    Some(check(&submission, kit, &settings).expect("it can be checked"))
+}
+
+/// What is said of the sections, for messages of tests.
+fn sections_text(report: &Report) -> String {
+    let line = |verdict: &check::sections::Verdict| format!("{verdict:#?}");
+    report.sections.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 fn faults(report: &Report) -> Vec<(Section, Option<&'static str>)> {
@@ -53,7 +53,7 @@ fn a_right_solution_is_right_in_every_section() {
     let Some(report) = report(&[]) else { return };
     assert_eq!(report.builds, Builds::Yes);
     let statuses: Vec<_> = report.sections.iter().map(|verdict| verdict.status).collect();
-    assert_eq!(statuses, [Status::Right; 5], "{}", check::text::text(&report));
+    assert_eq!(statuses, [Status::Right; 5], "{}", sections_text(&report));
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn the_letter_of_the_handout_is_a_fair_reading() {
         ("b = glm::normalize(glm::cross(n, t))", "b = glm::cross(n, t)"),
     ];
     let Some(report) = report(&changes) else { return };
-    assert_eq!(faults(&report), [], "{}", check::text::text(&report));
+    assert_eq!(faults(&report), [], "{}", sections_text(&report));
     assert_eq!(report.sections[4].status, Status::RightUnderAnotherReading);
 }
 
@@ -122,7 +122,7 @@ fn planted_mistakes_are_told_under_their_section() {
     for (from, to, section, name) in mistakes {
         let Some(report) = report(&[(from, to)]) else { return };
         let found = faults(&report);
-        let text = check::text::text(&report);
+        let text = sections_text(&report);
         let is_named = found.iter().any(|(s, n)| *s == section && *n == Some(name));
         if !is_named || found.iter().any(|(s, _)| *s != section) {
             wrong.push(format!("{to} is {name}, in {}:\n{text}", section.title()));
@@ -139,7 +139,7 @@ fn two_mistakes_in_different_sections_are_both_told() {
         (Section::PhotonEmission, Some("cube-directions")),
         (Section::HemisphereSampling, Some("no-square-root")),
     ];
-    assert_eq!(faults(&report), expected, "{}", check::text::text(&report));
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn code_that_ends_or_never_ends_is_told_under_its_section() {
         ("for (volatile int i = 0;;) { i = 1; } float x, y, z, sum;", "does not end"),
     ] {
         let Some(report) = report(&[("float x, y, z, sum;", to)]) else { return };
-        let text = check::text::text(&report);
+        let text = sections_text(&report);
         assert!(
             report.sections[0].faults.iter().any(|fault| fault.found.contains(words)),
             "{text}"

@@ -112,7 +112,12 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         return Err(CliError::Argument(message));
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
-    let settings = Settings { time: Duration::from_secs(arguments.timeout), ..Settings::default() };
+    let settings = Settings {
+        time: Duration::from_secs(arguments.timeout),
+        // A class keeps all cores busy by itself.
+        jobs: if paths.len() == 1 { 3 } else { 1 },
+        ..Settings::default()
+    };
     let grading = grading::submission::Settings {
         emitted: Some(settings.photons),
         seed: assignment8::SEED,
@@ -200,12 +205,8 @@ fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Res
 fn together(format: FormatName, all: &[Checked], best: f64) -> String {
     match format {
         FormatName::Text => {
-            let texts = all.iter().map(|Checked { report, grade, .. }| {
-                let verdict = verdict_in_words(grade.verdict);
-                let heading =
-                    format!("{}: {verdict}, {} of {best} points\n", grade.submission, grade.score);
-                heading + &check::text::text(report)
-            });
+            let texts =
+                all.iter().map(|checked| check::text::text(&checked.report, &checked.grade, best));
             texts.collect::<Vec<_>>().join("\n")
         }
         FormatName::Json => {
@@ -239,7 +240,7 @@ fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
     ];
     let statuses = (0..5).map(|at| report.sections.get(at).map_or("", |v| v.status.in_words()));
     cells.extend(statuses.map(str::to_owned));
-    cells.push(report.whole.sentence());
+    cells.push(report.whole.sentence(report.is_right()));
     let quoted = cells.iter().map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
     quoted.collect::<Vec<_>>().join(",")
 }

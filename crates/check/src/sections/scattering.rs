@@ -209,6 +209,10 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
         if total < 20 || may_happen(count, total, 0.5) {
             continue;
         }
+        if hit > 1 && count == 0 {
+            // The path ends here, whatever the roulette says: that is a matter of Photon Storage.
+            return;
+        }
         let found = format!(
             "at hit number {hit} of a path, {count} of {total} photons scatter where P_r = 0.5; at the first hit the \
              part is right"

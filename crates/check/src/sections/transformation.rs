@@ -168,7 +168,9 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
     let mut offsets = Vec::new();
     let (mut again, mut above) = (0_usize, 0_usize);
     let mut elsewhere: Option<(Vec3, Vec3)> = None;
-    for (normal, ray) in all.flat_map(|(normal, rays)| rays.iter().map(move |ray| (normal, ray))) {
+    let all = all.flat_map(|(normal, rays)| rays.iter().map(move |ray| (normal, ray)));
+    // A start along a direction that is not a number is none either; that has been said.
+    for (normal, ray) in all.filter(|(_, ray)| ray.direction.is_finite()) {
         let offset = ray.from - ray.hit;
         let direction = ray.direction.normalize_or_zero();
         if offset.length() > ELSEWHERE || !offset.is_finite() {
