@@ -11,7 +11,7 @@ use serde::Serialize;
 use variants::section::Section;
 
 use crate::plan::Step;
-use crate::run::Observed;
+use crate::run::{Death, Observed};
 
 /// What a section's verdict is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -85,6 +85,9 @@ impl Verdict {
         let mut told: Vec<String> = Vec::new();
         for step in steps {
             let Some(death) = observed.death(*step) else { continue };
+            if *death == Death::LeftOut && !told.is_empty() {
+                continue;
+            }
             let sentence = death.sentence();
             if !told.contains(&sentence) {
                 let found = format!("{function} {sentence} ({})", where_of(*step));
