@@ -75,3 +75,37 @@ fn a_missing_name_is_told_with_file_and_line() {
     assert_eq!(error.missing.as_deref(), Some("RandFloat01"));
     assert!(error.line.is_some());
 }
+
+/// A whole checkout of the framework, with a helper of the student's own in another folder.
+#[test]
+fn a_checkout_brings_its_own_helpers() {
+    let Some(kit) = support::kit() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |path: &str, text: &str| {
+        let path = folder.path().join("assignment8").join(path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("can be made");
+        fs::write(path, text).expect("can be written");
+    };
+    let read = |name: &str| {
+        fs::read_to_string(submissions().join("one_function").join(name)).expect("a file")
+    };
+    let light = read("PointLight.cpp").replace("((float)rand() / RAND_MAX)", "RandFloat01()");
+    let light = format!("#include \"common/Utility/utils.h\"\n{light}");
+    write("common/Scene/Lights/Point/PointLight.cpp", &light);
+    let renderer = read("PhotonMappingRenderer.cpp");
+    write("common/Rendering/Renderer/Photon/PhotonMappingRenderer.cpp", &renderer);
+    write("common/Utility/utils.h", "#pragma once\nfloat RandFloat01();\n");
+    let utils = "#include \"common/Utility/utils.h\"\n#include <cstdlib>\n\
+                 float RandFloat01() { return rand() / (float)RAND_MAX; }\n";
+    write("common/Utility/utils.cpp", utils);
+    // What the framework has and the stand-in does not need is of no interest.
+    write("main.cpp", "#error this is not compiled\n");
+    write("common/common.h", "#error nor is this read\n");
+    let submission = Submission::find(folder.path()).expect("a submission");
+    let settings = Settings { photons: 2000, ..Settings::default() };
+    let report = check(&submission, kit, &settings).expect("it can be checked");
+    assert_eq!(report.builds, Builds::Yes);
+    let statuses: Vec<_> = report.sections.iter().map(|verdict| verdict.status).collect();
+    assert_eq!(statuses, [Status::Right; 5], "{}", sections_text(&report));
+    assert!(report.whole.is_reference(), "{:?}", report.whole.sentence(true));
+}
