@@ -2,8 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use compare::report::{compare, scene_size};
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
+use photon_mapping::assignment8;
+use variants::run::Run;
 
 use crate::compile::Workshop;
 use crate::error::CheckError;
@@ -16,12 +19,17 @@ use crate::run::{Observed, run};
 use crate::sandbox::has_bubblewrap;
 use crate::sections;
 
+/// How far apart two positions may be that count as one, as a part of the scene's longest edge.
+const TOLERANCE: f32 = 1e-4;
+/// The part of the records that rounding may move farther.
+const BY_ROUNDING: f32 = 5e-4;
+
 /// How submissions are checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// How long the compiler may take for a file, and how long the submission may run.
     pub time: Duration,
-    /// How many photons are sent out in the whole run.
+    /// How many photons are emitted in the whole run.
     pub photons: u64,
     /// How many compilers may run at once for one submission.
     pub jobs: usize,
@@ -139,5 +147,20 @@ fn add_whole(observed: Observed, report: &mut Report) {
     }
     let columns =
         Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-    report.list = Some(PhotonList { columns, records: whole.records });
+    let list = PhotonList { columns, records: whole.records };
+    report.whole.comparison = Some(compare_whole(&list, report.whole.photons));
+    report.list = Some(list);
+}
+
+/// `list` beside the reference's of as many photons, under every fair reading.
+fn compare_whole(list: &PhotonList, photons: u64) -> compare::report::Report {
+    let run = Run::handout(assignment8::SEED, photons);
+    let mut records = Vec::new();
+    let traced: Result<_, std::convert::Infallible> = run.trace_list(0..photons, |piece, _| {
+        records.extend_from_slice(piece);
+        Ok(())
+    });
+    let Ok(_) = traced;
+    let reference = PhotonList { columns: list.columns, records };
+    compare(&reference, list, Some(&run), TOLERANCE * scene_size(run.scene()), BY_ROUNDING)
 }

@@ -102,12 +102,12 @@ impl<'kit> Workshop<'kit> {
                 let harness = &harness;
                 let running: Vec<_> = sources
                     .iter()
-                    .map(|source| scope.spawn(move || self.compile(source, source == harness)))
+                    .map(|source| scope.spawn(move || self.compile_one(source, harness)))
                     .collect();
                 running.into_iter().map(|one| one.join().expect("no compilation panics")).collect()
             })
         } else {
-            sources.iter().map(|source| self.compile(source, *source == harness)).collect()
+            sources.iter().map(|source| self.compile_one(source, &harness)).collect()
         };
         let mut objects = Vec::new();
         // The student's own files speak first: the harness fails where their headers do.
@@ -131,6 +131,20 @@ impl<'kit> Workshop<'kit> {
             return Ok(Err(error));
         }
         self.link(&objects)
+    }
+
+    fn compile_one(
+        &self,
+        source: &Path,
+        harness: &Path,
+    ) -> Result<Result<Object, BuildError>, CheckError> {
+        let is_harness = source == harness;
+        if !is_harness || self.has_own_headers() || self.checkout.is_some() {
+            return self.compile(source, is_harness);
+        }
+        let compile = || Ok(self.compile(source, true)?.map(|object| object.path));
+        let kept = self.kit.harness(compile)?;
+        Ok(kept.map(|path| Object { path, sources: BTreeSet::new() }))
     }
 
     /// Compiles the sources beside the headers that were used, as far as they are not compiled yet.

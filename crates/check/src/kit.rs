@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 
 use tempfile::TempDir;
 
@@ -54,6 +55,8 @@ pub struct Kit {
     pub compiler: PathBuf,
     /// Where glm is, if not where the compiler looks anyway.
     pub glm: Option<PathBuf>,
+    /// The harness, compiled for submissions without headers of their own.
+    harness: Mutex<Option<PathBuf>>,
 }
 
 impl Kit {
@@ -71,12 +74,33 @@ impl Kit {
             write(&folder.path().join(path), content.as_bytes())?;
         }
         let glm = glm.map(|glm| fs::canonicalize(glm).unwrap_or_else(|_| glm.to_owned()));
-        Ok(Self { folder, compiler, glm })
+        Ok(Self { folder, compiler, glm, harness: Mutex::new(None) })
     }
 
     /// The folder with the kit.
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// The object file of the harness for submissions without headers of their own. The first one compiles it
+    /// with `compile`, which gives the path of the object, or what is wrong.
+    pub(crate) fn harness<E>(
+        &self,
+        compile: impl FnOnce() -> Result<Result<PathBuf, E>, CheckError>,
+    ) -> Result<Result<PathBuf, E>, CheckError> {
+        // Others wait: they need the same object.
+        let mut harness = self.harness.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(path) = &*harness {
+            return Ok(Ok(path.clone()));
+        }
+        let object = match compile()? {
+            Ok(object) => object,
+            Err(error) => return Ok(Err(error)),
+        };
+        let kept = self.path().join("harness.o");
+        fs::copy(object, &kept).map_err(CheckError::io("harness.o"))?;
+        *harness = Some(kept.clone());
+        Ok(Ok(kept))
     }
 
     /// A new empty folder for one submission.

@@ -3,7 +3,8 @@
 //!
 //! The files are compiled against a small stand-in for the course framework ([`kit`], with the C++ under
 //! `assets/`). The stand-in's harness carries out a [`plan`]: small scenes with known answers, and the
-//! handout's scene. It tells what the student's code does as [`events`], and [`sections`] judge them. What
+//! handout's scene. It tells what the student's code does as [`events`], and [`sections`] judge them; [`grade`] makes
+//! it a grade. What
 //! strangers' code may do is limited by [`sandbox`].
 
 mod checking;
@@ -11,6 +12,7 @@ pub mod compile;
 pub mod error;
 pub mod events;
 pub mod find;
+pub mod grade;
 pub mod kit;
 pub mod plan;
 pub mod report;

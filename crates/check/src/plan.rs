@@ -61,6 +61,13 @@ pub enum Step {
     Whole,
 }
 
+impl Step {
+    /// Whether it only asks the light for rays.
+    pub fn is_emission(self) -> bool {
+        matches!(self, Self::Emit | Self::EmitCorner | Self::EmitOnSphere | Self::EmitZero)
+    }
+}
+
 /// The normals of the walls: the scene's own, those along the axes, and one that is along nothing.
 pub fn wall_normals() -> Vec<Vec3> {
     [

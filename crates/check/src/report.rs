@@ -1,10 +1,12 @@
 //! What is said about one submission.
 
+use compare::numbers::thousands;
+use compare::report::Outcome;
 use photon_list::reader::PhotonList;
 use serde::Serialize;
 
 use crate::compile::BuildError;
-use crate::sections::Verdict;
+use crate::sections::{Status, Verdict};
 
 /// Whether the submission builds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -27,9 +29,9 @@ pub enum Builds {
 }
 
 /// The whole run on the handout's scene.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Whole {
-    /// How many photons were to be sent out.
+    /// How many photons were to be emitted.
     pub photons: u64,
     /// How many were stored, if the run ended.
     pub stored: Option<u64>,
@@ -37,6 +39,107 @@ pub struct Whole {
     pub drawn: Option<u64>,
     /// How the run died.
     pub death: Option<String>,
+    /// How its list compares with the reference's.
+    pub comparison: Option<compare::report::Report>,
+}
+
+impl Whole {
+    /// Whether its photons are the reference's, under one of the fair readings.
+    pub fn is_reference(&self) -> bool {
+        self.death.is_none()
+            && self.comparison.as_ref().is_some_and(|report| report.outcome != Outcome::Different)
+    }
+
+    /// Whether it draws the reference's numbers: from `rand()` and its like, and as often.
+    pub fn draws_nothing(&self) -> bool {
+        self.drawn.is_some_and(|drawn| drawn < self.photons)
+    }
+
+    /// How the run went, in one line. Where all sections are right (`is_right`), a list that is not the
+    /// reference's comes of other random numbers.
+    pub fn sentence(&self, is_right: bool) -> String {
+        if let Some(death) = &self.death {
+            return death.clone();
+        }
+        let (Some(report), Some(stored)) = (&self.comparison, self.stored) else {
+            return "not reached".to_owned();
+        };
+        let records = thousands(stored);
+        match report.outcome {
+            Outcome::Identical => format!("identical in {records} records"),
+            Outcome::WithinTolerance => {
+                format!(
+                    "the reference's photons, {} of {records} records",
+                    thousands(report.differences.matched)
+                )
+            }
+            Outcome::SameUnderAnotherReading => format!(
+                "the reference's photons under another fair reading: {}",
+                report.reading.as_deref().unwrap_or_default()
+            ),
+            Outcome::Different if self.draws_nothing() => format!(
+                "random numbers of its own (not from rand()), so that only statistics can tell; {records} \
+                 photons stored"
+            ),
+            Outcome::Different if is_right => format!(
+                "random numbers drawn in another way than the reference's, so that only statistics can \
+                 tell; {records} photons stored"
+            ),
+            Outcome::Different => self.divergence(report),
+        }
+    }
+
+    fn divergence(&self, report: &compare::report::Report) -> String {
+        let Some(first) = &report.first_divergence else {
+            return "not the reference's photons".to_owned();
+        };
+        let section = first.section.map(|section| format!(" [{}]", section.title()));
+        let reason = first.reason.as_deref().unwrap_or("not explained");
+        let photon = first.photon.map(|photon| {
+            format!(
+                "; what should have happened: photon-mapping explain {photon} --seed 148 --photons {}",
+                self.photons
+            )
+        });
+        format!(
+            "it parts from the reference:{} {reason}{}",
+            section.unwrap_or_default(),
+            photon.unwrap_or_default()
+        )
+    }
+}
+
+impl Report {
+    /// Whether all sections are right, under whatever fair reading.
+    pub fn is_right(&self) -> bool {
+        let right = [Status::Right, Status::RightUnderAnotherReading];
+        !self.sections.is_empty() && self.sections.iter().all(|v| right.contains(&v.status))
+    }
+}
+
+impl Builds {
+    /// Whether it builds, in one line.
+    pub fn sentence(&self) -> String {
+        match self {
+            Self::Yes => "yes".to_owned(),
+            Self::MissingFile { file } => format!("no, there is no file {file}"),
+            Self::EndsAtOnce { what } => format!(
+                "yes, but the program {what} before any function of the assignment is called: look at \
+                 static variables and their constructors"
+            ),
+            Self::No(error) => {
+                let place = match (&error.file, error.line) {
+                    (Some(file), Some(number)) => format!("{file}:{number}: "),
+                    _ => String::new(),
+                };
+                let missing = error
+                    .missing
+                    .as_ref()
+                    .map(|missing| format!("; `{missing}` is declared in no file you handed in"));
+                format!("no: {place}{}{}", error.message, missing.unwrap_or_default())
+            }
+        }
+    }
 }
 
 /// The report on one submission.

@@ -9,7 +9,7 @@ use crate::error::CheckError;
 use crate::events::{Log, Reader};
 use crate::kit::write;
 use crate::plan::{self, Step};
-use crate::sandbox::{Ending, Limits, Outcome, Program};
+use crate::sandbox::{Ending, Limits, MOST_BYTES, Outcome, Program};
 
 /// A step with a small scene takes far less; an endless loop is not waited for longer.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -51,6 +51,10 @@ pub enum Death {
 }
 
 impl Death {
+    fn is_time_out(&self) -> bool {
+        matches!(self, Self::TimeOut { .. })
+    }
+
     /// What happened, as the end of a sentence that starts with what was called.
     pub fn sentence(&self) -> String {
         match self {
@@ -71,7 +75,9 @@ impl Death {
                 "overflows the stack: look for a recursion without end, or very large local variables"
                     .to_owned()
             }
-            Self::TooMuchOutput => "prints more than 256 MB, and is ended".to_owned(),
+            Self::TooMuchOutput => {
+                format!("prints more than {} MB, and is ended", MOST_BYTES >> 20)
+            }
             Self::Exception { what } if what.contains("bad_alloc") => {
                 format!("uses more than {MEMORY} MB of memory")
             }
@@ -132,6 +138,9 @@ pub fn run(
     while first < steps.len() {
         observed.log.current = None;
         observed.log.stack_overflowed = false;
+        let has_waited = observed.deaths.iter().flatten().any(Death::is_time_out);
+        // Whoever has waited for an endless loop already waits no longer for the whole.
+        let time = if has_waited { PATIENCE.min(time) } else { time };
         let outcome = run_from(harness, folder, &plan_path, first, time, &mut observed.log)?;
         observed.printed_bytes += outcome.printed_bytes;
         if observed.printed.is_empty() {
@@ -153,9 +162,15 @@ pub fn run(
         };
         let current = current.clamp(first, steps.len() - 1);
         observed.log.is_broken = false;
+        let is_endless = death.is_time_out();
         observed.deaths[current] = Some(death);
         deaths += 1;
         first = current + 1;
+        // An emission that never ends ends with no other numbers either.
+        while is_endless && steps[current].is_emission() && steps[first].is_emission() {
+            observed.deaths[first] = Some(Death::LeftOut);
+            first += 1;
+        }
         if deaths >= MOST_DEATHS && first < steps.len() - 1 {
             for left_out in &mut observed.deaths[first..steps.len() - 1] {
                 *left_out = Some(Death::LeftOut);

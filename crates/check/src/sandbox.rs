@@ -22,7 +22,7 @@ use crate::error::CheckError;
 /// So much of what a program prints is kept.
 const MOST_PRINTED: usize = 64 << 10;
 /// A program that prints more than this is ended.
-const MOST_BYTES: u64 = 256 << 20;
+pub(crate) const MOST_BYTES: u64 = 32 << 20;
 
 /// The limits of one program.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,42 +2,39 @@
 
 use std::fmt::Write as _;
 
-use crate::report::{Builds, Report};
+use grading::text::verdict_in_words;
+use grading::verdict::Grade;
+
+use crate::grade::of_statistics;
+use crate::report::Report;
 use crate::sections::{Status, Verdict};
 
-/// The report as text.
-pub fn text(report: &Report) -> String {
-    let mut text = format!("{}\n", report.submission);
+/// The report and its `grade`, of at most `best` points, as text.
+pub fn text(report: &Report, grade: &Grade, best: f64) -> String {
+    let verdict = verdict_in_words(grade.verdict);
+    let mut text = format!("{}: {verdict}, {} of {best} points\n", grade.submission, grade.score);
     let mut line = |words: String| writeln!(text, "{words}").expect("a string takes everything");
-    match &report.builds {
-        Builds::Yes => line("  builds: yes".to_owned()),
-        Builds::MissingFile { file } => line(format!("  builds: no, there is no file {file}")),
-        Builds::EndsAtOnce { what } => line(format!(
-            "  builds: yes, but the program {what} before any function of the assignment is called: look at \
-             static variables and their constructors"
-        )),
-        Builds::No(error) => {
-            let place = match (&error.file, error.line) {
-                (Some(file), Some(number)) => format!("{file}:{number}: "),
-                _ => String::new(),
-            };
-            line(format!("  builds: no\n    {place}{}", error.message));
-            if let Some(missing) = &error.missing {
-                line(format!("    `{missing}` is declared in no file you handed in"));
-            }
-        }
-    }
+    line(format!("  builds: {}", report.builds.sentence()));
     for verdict in &report.sections {
         section(verdict, &mut line);
     }
     if !report.sections.is_empty() {
-        let whole = &report.whole;
-        match (&whole.death, whole.stored) {
-            (Some(death), _) => line(format!("  the whole: {death}")),
-            (None, Some(stored)) => {
-                line(format!("  the whole: {stored} photons stored, {} sent out", whole.photons));
-            }
-            (None, None) => line("  the whole: not reached".to_owned()),
+        line(format!("  the whole: {}", report.whole.sentence(report.is_right())));
+    }
+    let statistics: Vec<_> = of_statistics(grade).collect();
+    if !statistics.is_empty() {
+        let faults: Vec<_> = statistics.iter().filter(|finding| finding.is_fault()).collect();
+        line(format!(
+            "  statistics: {} of {} checks of the list are as they should be",
+            statistics.len() - faults.len(),
+            statistics.len()
+        ));
+        for finding in faults {
+            line(format!(
+                "    {}: {}; expected {}",
+                finding.check, finding.found, finding.expected
+            ));
+            line(format!("    -> {}", finding.advice));
         }
     }
     for remark in &report.remarks {
@@ -53,7 +50,7 @@ fn section(verdict: &Verdict, line: &mut impl FnMut(String)) {
         Status::RightUnderAnotherReading => {
             format!("right under another fair reading: {}", verdict.readings.join("; "))
         }
-        Status::Wrong => "WRONG".to_owned(),
+        Status::Wrong => "wrong".to_owned(),
         Status::NotReached => "not reached".to_owned(),
     };
     line(format!("  {title}: {status}"));

@@ -1,18 +1,27 @@
 //! `photon-mapping check`: compiles and runs the two C++ files of a submission, section by section.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use check::find::Submission;
 use check::kit::Kit;
 use check::{Report, Settings, check};
 use clap::{Args, ValueEnum};
+use grading::gradescope;
+use grading::page::{Pages, index::index};
+use grading::text::verdict_in_words;
+use grading::verdict::Grade;
 use photon_list::writer::{Format, ListWriter};
+use photon_mapping::assignment8;
 use rayon::prelude::*;
 
 use super::error::{CliError, print};
+use super::grade::{file_names, json, write};
 use super::output::OutputFile;
 use super::{progress, values};
+
+const CSV_HEADER: &str = "submission,verdict,score,misreadings,builds,emission,storage,scattering,\
+    sampling,transformation,whole\n";
 
 /// The options of `check`.
 #[derive(Debug, Args)]
@@ -37,9 +46,16 @@ pub struct CheckArgs {
     /// in .csv, else PLY
     #[arg(long, value_name = "FILE")]
     list: Option<PathBuf>,
-    /// Text for people, or JSON for programs
+    /// What to write
     #[arg(long, value_enum, default_value_t = FormatName::Text)]
     format: FormatName,
+    /// A JSON file with a course's own scores, as for grade
+    #[arg(long, value_name = "FILE.json")]
+    policy: Option<PathBuf>,
+    /// Where to write the report, instead of standard output; for html and gradescope of several
+    /// submissions, a folder
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     /// No progress bar
     #[arg(long, short)]
     quiet: bool,
@@ -48,10 +64,35 @@ pub struct CheckArgs {
 /// The formats of the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum FormatName {
-    /// A few lines for every section
+    /// For people: a few lines for every section
     Text,
-    /// An array with a report for every submission
+    /// For programs: an array with a report for every submission
     Json,
+    /// A page that needs no other file, one a submission, with pictures of its photons
+    Html,
+    /// Gradescope's results.json, one a submission
+    Gradescope,
+    /// A table with a line for every submission
+    Csv,
+}
+
+impl FormatName {
+    /// The extension of its files, where each submission has one of its own.
+    fn of_each(self) -> Option<&'static str> {
+        match self {
+            Self::Html => Some("html"),
+            Self::Gradescope => Some("json"),
+            Self::Text | Self::Json | Self::Csv => None,
+        }
+    }
+}
+
+/// What is kept of a submission: its list is large, and is written at once.
+struct Checked {
+    report: Report,
+    grade: Grade,
+    /// The file of its own, in formats that have one.
+    output: String,
 }
 
 /// Checks, and prints a report for every submission in order.
@@ -59,57 +100,152 @@ enum FormatName {
 /// # Errors
 /// When there is no compiler or no glm, or a path cannot be read.
 pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
-    let argument = |error: check::error::CheckError| CliError::Argument(error.to_string());
-    let paths: Vec<PathBuf> = if arguments.class {
-        let classes: Vec<_> = arguments
-            .submissions
-            .iter()
-            .map(|path| Submission::of_class(path))
-            .collect::<Result<_, _>>()
-            .map_err(argument)?;
-        classes.into_iter().flatten().collect()
-    } else {
-        arguments.submissions.clone()
-    };
+    let paths = submissions(arguments)?;
     if arguments.list.is_some() && paths.len() != 1 {
         let found = paths.len();
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
     }
+    let extension = arguments.format.of_each().filter(|_| paths.len() > 1);
+    if extension.is_some() && arguments.out.as_ref().is_none_or(|out| out.is_file()) {
+        let message =
+            format!("--out: expected a folder for a file of each of {} submissions", paths.len());
+        return Err(CliError::Argument(message));
+    }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
-    let settings = Settings { time: Duration::from_secs(arguments.timeout), ..Settings::default() };
+    let settings = Settings {
+        time: Duration::from_secs(arguments.timeout),
+        // A class keeps all cores busy by itself.
+        jobs: if paths.len() == 1 { 3 } else { 1 },
+        ..Settings::default()
+    };
+    let grading = grading::submission::Settings {
+        emitted: Some(settings.photons),
+        seed: assignment8::SEED,
+        policy: super::grade::policy(arguments.policy.as_deref())?,
+    };
+    let expectations = super::grade::expectations(assignment8::MAX_PHOTON_BOUNCES);
+    let pages = Pages::new(&expectations, &grading.policy);
+    let best = grading.policy.best();
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
-    let reports: Vec<Result<Report, _>> = paths
-        .par_iter()
-        .map(|path| {
-            let report =
-                Submission::find(path).and_then(|submission| check(&submission, &kit, &settings));
-            bar.inc(1);
-            report
-        })
-        .collect();
-    bar.finish_and_clear();
-    let failed = reports.iter().filter(|report| report.is_err()).count();
-    for error in reports.iter().filter_map(|report| report.as_ref().err()) {
-        super::complain(&format!("error: {error}"));
-    }
-    let reports: Vec<Report> = reports.into_iter().flatten().collect();
-    if let (Some(path), [report]) = (&arguments.list, reports.as_slice()) {
-        write_list(path, report)?;
-    }
-    match arguments.format {
-        FormatName::Text => {
-            let texts: Vec<String> = reports.iter().map(check::text::text).collect();
-            print(&texts.join("\n"))?;
+    let one = |path: &PathBuf| -> Result<Checked, CliError> {
+        let submission = Submission::find(path).map_err(argument)?;
+        let report = check(&submission, &kit, &settings).map_err(argument)?;
+        let graded = check::grade::grade(&report, &grading, &expectations);
+        let output = match arguments.format {
+            FormatName::Html => {
+                let name = report.submission.clone();
+                let of_list = grading::submission::Submission { name, ..Default::default() };
+                pages.page(&of_list, &graded)
+            }
+            FormatName::Gradescope => {
+                json(&gradescope::results(&graded.grade, best, report.seconds.iter().sum()))
+            }
+            _ => String::new(),
+        };
+        if let Some(path) = &arguments.list {
+            write_list(path, &report)?;
         }
-        FormatName::Json => {
-            let json = serde_json::to_string(&reports).expect("a report has only plain values");
-            print(&(json + "\n"))?;
+        bar.inc(1);
+        Ok(Checked { report: Report { list: None, ..report }, grade: graded.grade, output })
+    };
+    let results: Vec<Result<Checked, CliError>> = paths.par_iter().map(one).collect();
+    bar.finish_and_clear();
+    let mut failed = 0;
+    let mut all = Vec::new();
+    for result in results {
+        match result {
+            Ok(checked) => all.push(checked),
+            Err(error) => {
+                failed += 1;
+                super::complain(&format!("error: {error}"));
+            }
+        }
+    }
+    match (extension, &arguments.out) {
+        (Some(extension), Some(folder)) => write_each(&all, folder, extension, best)?,
+        (_, out) => {
+            let text = together(arguments.format, &all, best);
+            match out {
+                Some(path) => write(path, &text)?,
+                None => print(&text)?,
+            }
         }
     }
     Ok(if failed > 0 { super::FAILED } else { 0 })
 }
 
-fn write_list(path: &std::path::Path, report: &Report) -> Result<(), CliError> {
+fn argument(error: check::error::CheckError) -> CliError {
+    CliError::Argument(error.to_string())
+}
+
+fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
+    if !arguments.class {
+        return Ok(arguments.submissions.clone());
+    }
+    let classes = arguments.submissions.iter().map(|path| Submission::of_class(path));
+    let classes: Vec<_> = classes.collect::<Result<_, _>>().map_err(argument)?;
+    Ok(classes.into_iter().flatten().collect())
+}
+
+/// A file for each submission in `folder`; for pages, one more that leads to them.
+fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Result<(), CliError> {
+    let names = file_names(all.iter().map(|checked| checked.report.submission.as_str()));
+    let files = || names.iter().map(|name| format!("{name}.{extension}"));
+    for (checked, file) in all.iter().zip(files()) {
+        write(&folder.join(file), &checked.output)?;
+    }
+    if extension == "html" {
+        let pages: Vec<_> = all.iter().map(|checked| &checked.grade).zip(files()).collect();
+        write(&folder.join("index.html"), &index(&pages, best))?;
+    }
+    Ok(())
+}
+
+/// All reports in one text.
+fn together(format: FormatName, all: &[Checked], best: f64) -> String {
+    match format {
+        FormatName::Text => {
+            let texts =
+                all.iter().map(|checked| check::text::text(&checked.report, &checked.grade, best));
+            texts.collect::<Vec<_>>().join("\n")
+        }
+        FormatName::Json => {
+            let reports: Vec<_> = all
+                .iter()
+                .map(|Checked { report, grade, .. }| {
+                    serde_json::json!({ "report": report, "grade": grade })
+                })
+                .collect();
+            json(&reports)
+        }
+        FormatName::Csv => {
+            let lines = all.iter().map(|checked| csv_line(checked) + "\n");
+            CSV_HEADER.to_owned() + &lines.collect::<String>()
+        }
+        FormatName::Html | FormatName::Gradescope => {
+            all.iter().map(|checked| checked.output.as_str()).collect()
+        }
+    }
+}
+
+fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
+    let names = report.sections.iter().flat_map(|verdict| &verdict.faults);
+    let names: Vec<_> = names.filter_map(|fault| fault.name).collect();
+    let mut cells = vec![
+        report.submission.clone(),
+        verdict_in_words(grade.verdict).to_owned(),
+        grade.score.to_string(),
+        names.join(" "),
+        report.builds.sentence(),
+    ];
+    let statuses = (0..5).map(|at| report.sections.get(at).map_or("", |v| v.status.in_words()));
+    cells.extend(statuses.map(str::to_owned));
+    cells.push(report.whole.sentence(report.is_right()));
+    let quoted = cells.iter().map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
+    quoted.collect::<Vec<_>>().join(",")
+}
+
+fn write_list(path: &Path, report: &Report) -> Result<(), CliError> {
     let Some(list) = &report.list else {
         return Err(CliError::Argument(format!("--list: {} stored no list", report.submission)));
     };

@@ -127,7 +127,7 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     let expectations = expectations(arguments.max_bounces);
     let best = settings.policy.best();
     let pages = Pages::new(&expectations, &settings.policy);
-    let files = file_names(&handed_in);
+    let files = file_names(handed_in.iter().map(|handed_in| handed_in.submission.name.as_str()));
     let bar = progress(handed_in.len());
     // A list is large and a grade is not, so what is written of a list is written at once.
     let one = |(handed_in, file): (&HandedIn, &String)| -> Result<(Grade, String), CliError> {
@@ -184,11 +184,11 @@ fn no_such_file(missing: &[PathBuf]) -> CliError {
     CliError::Argument(format!("{}: no such file or folder", names.join(", ")))
 }
 
-fn json(value: &impl Serialize) -> String {
+pub(super) fn json(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).expect("a grade has only plain values") + "\n"
 }
 
-fn write(path: &Path, output: &str) -> Result<(), CliError> {
+pub(super) fn write(path: &Path, output: &str) -> Result<(), CliError> {
     let mut file = OutputFile::create(path)?;
     file.file().write_all(output.as_bytes()).map_err(|error| CliError::unwritable(path, error))?;
     file.persist()
@@ -218,11 +218,11 @@ fn folder(
 
 /// For each submission the name of its files: its own, without what systems do not take or what leads
 /// elsewhere.
-fn file_names(handed_in: &[HandedIn]) -> Vec<String> {
+pub(super) fn file_names<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     // Also for systems that do not tell capitals apart.
     let mut seen = HashSet::from(["index".to_owned()]);
-    let mut unique = |handed_in: &HandedIn| {
-        let name = Path::new(&handed_in.submission.name);
+    let unique = |name: &'a str| {
+        let name = Path::new(name);
         let name = name.file_name().unwrap_or(name.as_os_str()).to_string_lossy();
         let is_plain = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
         let plain = name.chars().take(LONGEST_NAME).map(|c| if is_plain(c) { c } else { '_' });
@@ -232,7 +232,7 @@ fn file_names(handed_in: &[HandedIn]) -> Vec<String> {
         let mut names = std::iter::once(plain.clone()).chain(numbered);
         names.find(|name| seen.insert(name.to_lowercase())).expect("there is always another number")
     };
-    handed_in.iter().map(&mut unique).collect()
+    names.map(unique).collect()
 }
 
 /// A bar on a terminal, when there is something to wait for.
@@ -245,7 +245,7 @@ fn progress(count: usize) -> ProgressBar {
 }
 
 /// What the submissions are held against.
-fn expectations(max_bounces: i32) -> Expectations {
+pub(super) fn expectations(max_bounces: i32) -> Expectations {
     let places = Places::new(&assignment8::create_scene());
     let signatures = if max_bounces >= MANY_BOUNCES {
         Signatures::of_assignment8()
@@ -258,11 +258,11 @@ fn expectations(max_bounces: i32) -> Expectations {
     Expectations::new(places, signatures)
 }
 
-/// The scores in the file `path`, or the handout's.
+/// The policy in the file `path`; the handout's rubric without one.
 ///
 /// # Errors
 /// When the file cannot be read or is no policy.
-pub fn policy(path: Option<&Path>) -> Result<Policy, CliError> {
+pub(super) fn policy(path: Option<&Path>) -> Result<Policy, CliError> {
     let Some(path) = path else {
         return Ok(Policy::default());
     };

@@ -246,7 +246,8 @@ fn not_readable(reason: &str) -> Finding {
     }
 }
 
-fn grade_list(
+/// Grades a submission that has only a list.
+pub fn grade_list(
     submission: &Submission,
     list: PhotonList,
     settings: &Settings,

@@ -16,8 +16,6 @@ pub enum Lengths {
     Unit,
     /// As equations (7) and (8) give them.
     AsWritten,
-    /// t as equation (7) gives it, b of length 1.
-    AsWrittenAndUnit,
 }
 
 /// How t and b are turned or exchanged. Directions are as even around the normal as before.
@@ -76,10 +74,6 @@ impl Frame {
                 let t = normal.cross(axis);
                 (t, normal.cross(t))
             }
-            Lengths::AsWrittenAndUnit => {
-                let t = normal.cross(axis);
-                (t, normal.cross(t).normalize())
-            }
             Lengths::Unit => {
                 let t = normal.cross(axis).normalize();
                 (t, normal.cross(t).normalize())
@@ -97,7 +91,7 @@ impl Frame {
         let axes = [Vec3::X, Vec3::Y, Vec3::Z];
         let sides = [false, true];
         let mut all = Vec::new();
-        for lengths in [Lengths::Unit, Lengths::AsWritten, Lengths::AsWrittenAndUnit] {
+        for lengths in [Lengths::Unit, Lengths::AsWritten] {
             for axis in axes {
                 for threshold in thresholds(normals, axis) {
                     for fallback in axes.into_iter().filter(|fallback| *fallback != axis) {
@@ -125,7 +119,6 @@ impl Frame {
                 match self.lengths {
                     Lengths::Unit => "t and b normalised",
                     Lengths::AsWritten => "t and b to the letter of the handout, not normalised",
-                    Lengths::AsWrittenAndUnit => "t as equation (7) has it, b normalised",
                 }
                 .to_owned(),
             );

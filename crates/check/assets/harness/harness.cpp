@@ -163,7 +163,7 @@ bool read_plan(const char* path, Plan& plan) {
     return true;
 }
 
-// The rest runs the student's code. Exceptions end one call, not the program.
+// The rest runs the student's code. An exception ends a step, not the program.
 template <class Call>
 bool guarded(Call call) {
     try {
@@ -252,7 +252,7 @@ void run_emit(const Plan& plan, const Step& step) {
     for (std::uint64_t i = 0; i < step.calls; ++i) {
         begin_call();
         begin_numbers(seed, i, step.numbers.data(), step.numbers.size());
-        if (guarded([&] {
+        if (!guarded([&] {
                 Ray ray;
                 as_light.GenerateRandomPhotonRay(ray);
                 const glm::vec3 from = glm::vec3(ray.GetPosition());
@@ -260,8 +260,9 @@ void run_emit(const Plan& plan, const Step& step) {
                 const float values[6] = {from.x, from.y, from.z, towards.x, towards.y, towards.z};
                 on_emitted(values);
             })) {
-            end_call();
+            return;
         }
+        end_call();
     }
 }
 
@@ -297,9 +298,10 @@ void run_trace(const Plan& plan, const Step& step) {
     for (std::uint64_t i = 0; i < step.calls; ++i) {
         begin_call();
         begin_numbers(seed, i, step.numbers.data(), step.numbers.size());
-        if (guarded([&] { trace_photon(*renderer, step, i, 0); })) {
-            end_call();
+        if (!guarded([&] { trace_photon(*renderer, step, i, 0); })) {
+            return;
         }
+        end_call();
         clear_map(*renderer, 0);
     }
 }

@@ -45,7 +45,7 @@ pub enum Frame {
 impl Frame {
     /// Whether it is a fair reading of the handout.
     pub fn is_fair(self) -> bool {
-        matches!(self, Self::Normalised | Self::AsWritten | Self::HalfAsWritten)
+        matches!(self, Self::Normalised | Self::AsWritten)
     }
 }
 

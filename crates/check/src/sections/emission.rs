@@ -3,11 +3,12 @@
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 
-use super::{Section, Verdict};
+use super::Verdict;
 use crate::events::Call;
 use crate::plan::{LIGHT, SECOND_TRY, Step, first_try};
 use crate::run::Observed;
 use crate::statistics::{are_alike, mean};
+use variants::section::Section;
 
 /// So many directions of every law are drawn, to hold the submission's against.
 const DRAWN: u64 = 20_000;
@@ -61,26 +62,26 @@ const LAWS: [Law; 5] = [
         draw: cube,
     },
     Law {
-        name: "positive-octant",
+        name: "octant-directions",
         what: "x, y and z are never negative: all photons go into one eighth of the sphere",
         advice: "Scale the random number from [0, 1) to [-1, 1): 2 * u - 1.",
         draw: |rand| ball(rand).abs(),
     },
     Law {
-        name: "positive-octant",
+        name: "octant-directions",
         what: "x, y and z are never negative, and come from the whole cube",
         advice: "Scale the random number from [0, 1) to [-1, 1): 2 * u - 1; and draw again while \
                  x^2 + y^2 + z^2 > 1.",
         draw: |rand| cube(rand).abs(),
     },
     Law {
-        name: "outside-the-sphere",
+        name: "rejection-reversed",
         what: "points inside the sphere are drawn again, and those outside are kept",
         advice: "Turn the loop's condition around: draw again while x^2 + y^2 + z^2 > 1.",
         draw: outside,
     },
     Law {
-        name: "even-angles",
+        name: "polar-directions",
         what: "theta = pi u1 and phi = 2 pi u2 crowd the directions around the poles",
         advice: "Use the handout's loop over x, y and z.",
         draw: angles,
@@ -88,7 +89,7 @@ const LAWS: [Law; 5] = [
 ];
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
-    let mut verdict = Verdict::new(Section::Emission);
+    let mut verdict = Verdict::new(Section::PhotonEmission);
     let steps = [Step::Emit, Step::EmitCorner, Step::EmitOnSphere, Step::EmitZero];
     let function = "GenerateRandomPhotonRay";
     let log = observed.step(Step::Emit);

@@ -8,46 +8,10 @@ mod storage;
 mod transformation;
 
 use serde::Serialize;
+use variants::section::Section;
 
 use crate::plan::Step;
-use crate::run::Observed;
-
-/// The five titles of the handout's sections.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub enum Section {
-    /// How the photon leaves the light.
-    #[serde(rename = "Photon Emission")]
-    Emission,
-    /// Which hits are stored, and when the path ends.
-    #[serde(rename = "Photon Storage")]
-    Storage,
-    /// The roulette.
-    #[serde(rename = "Photon Scattering/Absorption")]
-    Scattering,
-    /// The direction in tangent space.
-    #[serde(rename = "Hemisphere Sampling")]
-    Sampling,
-    /// The direction in world space, and the ray along it.
-    #[serde(rename = "Hemisphere Ray Transformation")]
-    Transformation,
-}
-
-impl Section {
-    /// All, in the handout's order.
-    pub const ALL: [Self; 5] =
-        [Self::Emission, Self::Storage, Self::Scattering, Self::Sampling, Self::Transformation];
-
-    /// Its title in the handout.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Emission => "Photon Emission",
-            Self::Storage => "Photon Storage",
-            Self::Scattering => "Photon Scattering/Absorption",
-            Self::Sampling => "Hemisphere Sampling",
-            Self::Transformation => "Hemisphere Ray Transformation",
-        }
-    }
-}
+use crate::run::{Death, Observed};
 
 /// What a section's verdict is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -61,6 +25,18 @@ pub enum Status {
     Wrong,
     /// Not seen: another section keeps it from being reached.
     NotReached,
+}
+
+impl Status {
+    /// As people say it.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::RightUnderAnotherReading => "right under another fair reading",
+            Self::Wrong => "wrong",
+            Self::NotReached => "not reached",
+        }
+    }
 }
 
 /// Something wrong in a section.
@@ -109,6 +85,9 @@ impl Verdict {
         let mut told: Vec<String> = Vec::new();
         for step in steps {
             let Some(death) = observed.death(*step) else { continue };
+            if *death == Death::LeftOut && !told.is_empty() {
+                continue;
+            }
             let sentence = death.sentence();
             if !told.contains(&sentence) {
                 let found = format!("{function} {sentence} ({})", where_of(*step));

@@ -1,10 +1,11 @@
 //! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
 
+use super::Verdict;
 use super::directions::{Directions, FEWEST, Frame};
-use super::{Section, Verdict};
 use crate::plan::Step;
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform, mean};
+use variants::section::Section;
 
 /// A law of the angle to the normal: u1 gives the square of its sine.
 struct Law {
@@ -29,7 +30,7 @@ const LAWS: [Law; 7] = [
         squared_sine: |u| u * u / (u * u + 1.0 - u),
     },
     Law {
-        name: "z-without-root",
+        name: "no-square-root-of-height",
         what: "z is 1 - u1, not its square root",
         advice: "Equation (6) has z = sqrt(1 - u1).",
         squared_sine: |u| u / (u + (1.0 - u) * (1.0 - u)),
@@ -41,19 +42,19 @@ const LAWS: [Law; 7] = [
         squared_sine: |u| u * u / (u * u + (1.0 - u) * (1.0 - u)),
     },
     Law {
-        name: "even-angle",
+        name: "linear-angle",
         what: "the angle to the normal is even, as in theta = pi / 2 u1",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
         squared_sine: |u| libm::sin(std::f64::consts::FRAC_PI_2 * u).powi(2),
     },
     Law {
-        name: "cosine-cubed",
+        name: "normal-and-ball",
         what: "directions crowd around the normal, as those of n plus a point of the ball do",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
         squared_sine: |u| 1.0 - u.sqrt(),
     },
     Law {
-        name: "number-used-again",
+        name: "roulette-number-again",
         what: "u1 is always below P_r = 0.5: it is the roulette's number, used again",
         advice: "Draw new random numbers for u1 and u2 after the roulette.",
         squared_sine: |u| 0.5 * u,
@@ -63,7 +64,7 @@ const LAWS: [Law; 7] = [
 const NEW_NUMBERS: &str = "Draw two random numbers in [0, 1), u1 and u2, for every direction.";
 
 pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
-    let mut verdict = Verdict::new(Section::Sampling);
+    let mut verdict = Verdict::new(Section::HemisphereSampling);
     let total = directions.floor.len();
     if total < FEWEST {
         if observed.death(Step::Floor).is_none() {
@@ -96,13 +97,13 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
     if sines.iter().all(|sine| *sine < 1e-6) {
         let found = format!("all {total} directions go along the normal");
         let advice = "u1 is always 0: dividing two integers, rand() / RAND_MAX, gives 0.";
-        verdict.fault(Some("along-the-normal"), found, advice);
+        verdict.fault(Some("along-normal"), found, advice);
         return;
     }
     if below > 0 && below < total {
         let found = format!("{below} of {total} directions go below the floor, where none is due");
         verdict.fault(
-            Some("below-the-surface"),
+            Some("below-surface"),
             found,
             "z = sqrt(1 - u1) is never negative, equation (6).",
         );
@@ -159,6 +160,6 @@ fn judge_pairs(directions: &Directions, verdict: &mut Verdict) {
     }
     if !are_alike(&near, &far) {
         let found = "the angle around the normal depends on the angle to it".to_owned();
-        verdict.fault(Some("same-number-twice"), found, NEW_NUMBERS);
+        verdict.fault(Some("one-number"), found, NEW_NUMBERS);
     }
 }

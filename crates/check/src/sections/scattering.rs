@@ -2,11 +2,12 @@
 
 use glam::Vec3;
 
-use super::{Section, Verdict};
+use super::Verdict;
 use crate::events::Call;
 use crate::plan::{COLOURS, Step};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
+use variants::section::Section;
 
 const STEPS: [Step; 9] = [
     Step::Black,
@@ -106,7 +107,7 @@ const RULES: [Rule; 13] = [
         chance: |d| d.length(),
     },
     Rule {
-        name: "number-from-minus-1",
+        name: "signed-roulette",
         what: "the number for the roulette lies in [-1, 1), not in [0, 1)",
         advice: "Do not scale the roulette's number as you do x, y and z.",
         chance: |d| 0.5 + 0.5 * d.max_element(),
@@ -114,7 +115,7 @@ const RULES: [Rule; 13] = [
 ];
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
-    let mut verdict = Verdict::new(Section::Scattering);
+    let mut verdict = Verdict::new(Section::PhotonScatteringAbsorption);
     let calls =
         |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
     // What happens at the first hit, by the wall's colour.
@@ -208,12 +209,16 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
         if total < 20 || may_happen(count, total, 0.5) {
             continue;
         }
+        if hit > 1 && count == 0 {
+            // The path ends here, whatever the roulette says: that is a matter of Photon Storage.
+            return;
+        }
         let found = format!(
             "at hit number {hit} of a path, {count} of {total} photons scatter where P_r = 0.5; at the first hit the \
              part is right"
         );
         let advice = "Let the same roulette decide at every hit, with a new random number.";
-        verdict.fault(Some("other-roulette-later"), found, advice);
+        verdict.fault(Some("late-roulette"), found, advice);
         return;
     }
     // The part that scatters at the second hit, where the first direction was near the normal, and elsewhere.
@@ -241,7 +246,7 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
             100.0 * far.1
         );
         let advice = "Draw a new random number for every roulette; hand a generator by reference, not by value.";
-        verdict.fault(Some("number-used-again"), found, advice);
+        verdict.fault(Some("numbers-again"), found, advice);
     }
 }
 

@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 
-use super::{Section, Verdict};
+use super::Verdict;
 use crate::events::{Call, Trace};
 use crate::plan::{INTENSITY, Step};
 use crate::run::Observed;
+use variants::section::Section;
 
 /// A position this far off the surface still shows the same dots.
 const OFF_SURFACE: f32 = 7.1e-3;
@@ -22,11 +23,13 @@ const STEPS: [Step; 9] = [
     Step::GrowPath,
 ];
 
+const IN_EVERY_CALL: &str =
+    "Call TracePhoton for the scattered ray in every call, not only in the first.";
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' grow with every \
     call of TracePhoton.";
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
-    let mut verdict = Verdict::new(Section::Storage);
+    let mut verdict = Verdict::new(Section::PhotonStorage);
     let calls =
         |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
     let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
@@ -75,6 +78,7 @@ fn judge_first(calls: &[Call], verdict: &mut Verdict) {
 }
 
 fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
+    let stores_the_scattered = calls(Step::GrowPath).iter().any(|call| !call.stored.is_empty());
     for path in [2, 3] {
         let calls = calls(Step::StoreLater(path));
         let with_hit: Vec<_> = calls.iter().filter(|call| call.hits().next().is_some()).collect();
@@ -85,9 +89,15 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
                  is black",
                 with_hit.len()
             );
-            let advice = "Insert a photon into photonMap where path.size() is larger than 1, before the roulette \
-                          decides.";
-            verdict.fault(Some("not-stored"), found, advice);
+            let (name, advice) = if stores_the_scattered {
+                (
+                    "absorbed-not-stored",
+                    "Store a photon before the roulette decides what becomes of it.",
+                )
+            } else {
+                ("not-stored", "Insert a photon into photonMap where path.size() is larger than 1.")
+            };
+            verdict.fault(Some(name), found, advice);
             return;
         }
         let twice = with_hit.iter().filter(|call| repeats(call)).count();
@@ -111,11 +121,18 @@ fn repeats(call: &Call) -> bool {
 }
 
 fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
+    let ends_at_second = |call: &Call| call.hits().count() == 2 && call.rays() == 2;
+    if !calls.is_empty() && calls.iter().all(ends_at_second) {
+        let found = "all paths end at the second hit in a closed white cube where remainingBounces starts \
+                     with 5; 6 hits are due";
+        verdict.fault(Some("first-bounce-only"), found.to_owned(), IN_EVERY_CALL);
+    }
     let hits: usize = calls.iter().map(|call| call.hits().count().saturating_sub(1)).sum();
     if hits == 0 {
         return;
     }
-    let has_fault = |verdict: &Verdict, name| verdict.faults.iter().any(|f| f.name == Some(name));
+    let has_fault =
+        |verdict: &Verdict, name: &str| verdict.faults.iter().any(|f| f.name == Some(name));
     let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
     let first_stored = calls.iter().filter(|call| stores_first(call)).count();
     if first_stored > 0 && !has_fault(verdict, "direct-stored") {
@@ -126,7 +143,8 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
         );
         verdict.fault(Some("direct-stored"), found, ONLY_LATER);
     }
-    if has_fault(verdict, "direct-stored") || has_fault(verdict, "not-stored") {
+    let is_told = ["direct-stored", "not-stored", "absorbed-not-stored"];
+    if is_told.iter().any(|name| has_fault(verdict, name)) {
         return;
     }
     if stored == 0 {
@@ -145,7 +163,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
              later",
             second.count()
         );
-        verdict.fault(Some("stored-too-late"), found, ONLY_LATER);
+        verdict.fault(Some("third-hit-on"), found, ONLY_LATER);
     } else if stored < hits {
         let found = format!("{stored} photons are stored in {hits} hits that have bounced");
         verdict.fault(None, found, ONLY_LATER);
@@ -213,16 +231,14 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     let Some(count) = counts.first().copied() else { return };
     let all_same = counts.iter().all(|other| *other == count);
     // One hit alone is a path that never scatters, which is another section's.
-    if all_same && !missed && (2..1001).contains(&count) {
+    let is_told = verdict.faults.iter().any(|fault| fault.name == Some("first-bounce-only"));
+    if all_same && !missed && !is_told && (2..1001).contains(&count) {
         let found = format!(
             "all paths end after {count} hits in a closed white cube where remainingBounces starts with \
              1000; 1001 are due"
         );
         let (name, advice) = match count {
-            2 => (
-                "no-recursion",
-                "Call TracePhoton for the scattered ray in every call, not only in the first.",
-            ),
+            2 => ("first-bounce-only", IN_EVERY_CALL),
             1000 => ("bounce-off-by-one", advice),
             _ => ("fewer-bounces", "Let remainingBounces alone decide when a path ends."),
         };

@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 
+use super::Verdict;
 use super::directions::{Directions, FEWEST, Frame, Scattered};
-use super::{Section, Verdict};
 use crate::plan::{Step, wall_normals};
 use crate::run::Observed;
+use variants::section::Section;
 
 /// A shorter offset is hardly one: some photons meet the surface they left.
 const SHORTEST: f32 = 5e-7;
@@ -22,7 +23,7 @@ const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1,
     with your threshold.";
 
 pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
-    let mut verdict = Verdict::new(Section::Transformation);
+    let mut verdict = Verdict::new(Section::HemisphereRayTransformation);
     let steps: Vec<_> = wall_normals().into_iter().map(Step::Wall).collect();
     let seen = directions.walls.iter().filter(|(_, rays)| rays.len() >= FEWEST).count();
     if seen == 0 {
@@ -83,9 +84,10 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
         judge_fair(&frames, verdict);
         return;
     }
-    let most = [Frame::Flipped, Frame::Transposed, Frame::None, Frame::OtherOrder]
-        .into_iter()
-        .max_by_key(|frame| unfair.iter().filter(|(_, other)| *other == Some(*frame)).count());
+    let most =
+        [Frame::Flipped, Frame::Transposed, Frame::None, Frame::OtherOrder, Frame::HalfAsWritten]
+            .into_iter()
+            .max_by_key(|frame| unfair.iter().filter(|(_, other)| *other == Some(*frame)).count());
     let most = most.filter(|frame| {
         let those = unfair.iter().filter(|(_, other)| *other == Some(*frame)).count();
         2 * those > unfair.len()
@@ -108,15 +110,18 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
             COLUMNS,
         ),
         Some(Frame::None) => (
-            Some("no-transformation"),
+            Some("not-transformed"),
             "directions are those of tangent space, whatever the normal",
             "Multiply the matrix of t, b and n by the sampled direction before you trace the ray.",
         ),
-        Some(Frame::OtherOrder) => (
-            Some("other-column-order"),
-            "the normal is not the third column of the matrix",
-            COLUMNS,
+        Some(Frame::HalfAsWritten) => (
+            Some("half-normalised"),
+            "b is normalised, and t is not",
+            "Normalise both t and b, or neither: one of them alone squeezes directions to one side.",
         ),
+        Some(Frame::OtherOrder) => {
+            (Some("permuted-frame"), "the normal is not the third column of the matrix", COLUMNS)
+        }
         _ => (None, "directions are not those of the hemisphere around the normal", FRAME),
     };
     verdict.fault(name, format!("{what}: {seen}"), advice);
@@ -153,8 +158,6 @@ fn judge_fair(frames: &[(Vec3, Option<Frame>)], verdict: &mut Verdict) {
         verdict
             .readings
             .push("t and b as equations (7) and (8) have them, not normalised".to_owned());
-    } else if has(Frame::HalfAsWritten) {
-        verdict.readings.push("t as equation (7) has it, b normalised".to_owned());
     }
 }
 
@@ -165,7 +168,9 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
     let mut offsets = Vec::new();
     let (mut again, mut above) = (0_usize, 0_usize);
     let mut elsewhere: Option<(Vec3, Vec3)> = None;
-    for (normal, ray) in all.flat_map(|(normal, rays)| rays.iter().map(move |ray| (normal, ray))) {
+    let all = all.flat_map(|(normal, rays)| rays.iter().map(move |ray| (normal, ray)));
+    // A start along a direction that is not a number is none either; that has been said.
+    for (normal, ray) in all.filter(|(_, ray)| ray.direction.is_finite()) {
         let offset = ray.from - ray.hit;
         let direction = ray.direction.normalize_or_zero();
         if offset.length() > ELSEWHERE || !offset.is_finite() {
@@ -183,7 +188,7 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
         let found =
             format!("a scattered ray starts at {from}, and the photon hit the wall at {hit}");
         let advice = "Start the new ray at the point that was hit.";
-        verdict.fault(Some("other-start"), found, advice);
+        verdict.fault(Some("start-not-moved"), found, advice);
         return;
     }
     let lengths = offsets.iter().map(|(offset, ..)| offset.length());

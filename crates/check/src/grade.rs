@@ -1,0 +1,148 @@
+//! The grade of a checked submission, by the handout's rubric or a course's policy.
+
+use grading::judge_list::Expectations;
+use grading::submission::{Graded, Settings, Submission, grade_list, remark};
+use grading::verdict::{Finding, Grade, Verdict, Weight};
+
+use crate::report::{Builds, Report};
+use crate::sections::{self, Status};
+
+/// The names of the checks besides the sections.
+const BUILDS: &str = "builds";
+const WHOLE: &str = "whole run";
+const REMARK: &str = "remark";
+
+/// The grade of `report`, with the photon list and what its statistics say where it stored any.
+///
+/// A section that is wrong makes a submission incorrect. Where all five are right and the whole run is not
+/// the reference's, as with random numbers of its own, the statistics of its list decide.
+pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) -> Graded {
+    let statistics = report.list.as_ref().filter(|_| !report.sections.is_empty()).map(|list| {
+        let submission = Submission { name: report.submission.clone(), ..Submission::default() };
+        grade_list(&submission, list.clone(), settings, expectations)
+    });
+    let mut findings = vec![builds(report)];
+    findings.extend(report.sections.iter().flat_map(section));
+    findings.extend(whole(report));
+    let of_list = statistics.as_ref().map(|graded| &graded.grade);
+    let has_fault = findings.iter().any(Finding::is_fault);
+    let follows = report.whole.is_reference();
+    let verdict = match (&report.builds, of_list) {
+        (Builds::Yes, Some(of_list)) if of_list.verdict == Verdict::NoDots => Verdict::NoDots,
+        (Builds::Yes, Some(_)) if has_fault => Verdict::Incorrect,
+        (Builds::Yes, Some(_)) if follows => Verdict::Correct,
+        (Builds::Yes, Some(of_list)) => of_list.verdict,
+        (Builds::Yes, None) => Verdict::NoDots,
+        _ => Verdict::Unreadable,
+    };
+    // What the sections and the exact comparison say is surer than statistics, which then only repeat it.
+    let decides = !has_fault && !follows;
+    for finding in of_list.iter().flat_map(|grade| &grade.findings) {
+        let is_exact = finding.check == "exact comparison";
+        if decides && !is_exact {
+            findings.push(finding.clone());
+        }
+    }
+    findings.extend(report.remarks.iter().map(|text| remark(REMARK, "", text, "")));
+    let faults = || report.sections.iter().flat_map(|verdict| &verdict.faults);
+    let misreading = faults().find_map(|fault| fault.name);
+    let misreading = misreading.or_else(|| {
+        let of_list = of_list.filter(|_| decides)?;
+        of_list.misreading
+    });
+    let is_grave = |finding: &Finding| finding.is_fault() && finding.weight == Weight::Grave;
+    let is_plausible = !of_list.is_some_and(|grade| grade.findings.iter().any(is_grave))
+        && faults().all(|fault| fault.name != Some("direct-stored"));
+    let grade = Grade {
+        submission: report.submission.clone(),
+        emitted: Some(report.whole.photons),
+        stored: report.whole.stored,
+        score: settings.policy.score(verdict, misreading, is_plausible),
+        verdict,
+        misreading,
+        misreading_confidence: misreading.map(|_| 1.0),
+        misreading_title: faults().find(|fault| fault.name == misreading).map(|f| f.found.clone()),
+        findings,
+    };
+    Graded { grade, list: statistics.and_then(|graded| graded.list) }
+}
+
+/// The findings of `grade` that come from the statistics of the list.
+pub fn of_statistics(grade: &Grade) -> impl Iterator<Item = &Finding> {
+    let own = [BUILDS, WHOLE, REMARK];
+    grade.findings.iter().filter(move |finding| {
+        !own.contains(&finding.check) && finding.section != Some(finding.check)
+    })
+}
+
+fn builds(report: &Report) -> Finding {
+    let passed = report.builds == Builds::Yes;
+    Finding {
+        check: BUILDS,
+        section: None,
+        expected: "two C++ files that compile and run".to_owned(),
+        found: report.builds.sentence(),
+        p_value: None,
+        passed,
+        weight: Weight::Grave,
+        advice: "".into(),
+    }
+}
+
+/// A finding for each fault of a section; one for a section without.
+fn section(verdict: &sections::Verdict) -> Vec<Finding> {
+    let title = verdict.section.title();
+    let finding = |found: String, passed, weight, advice: &'static str| Finding {
+        check: title,
+        section: Some(title),
+        expected: "what the handout asks for".to_owned(),
+        found,
+        p_value: None,
+        passed,
+        weight,
+        advice: advice.into(),
+    };
+    let mut findings: Vec<_> = verdict
+        .faults
+        .iter()
+        .map(|fault| {
+            let name = fault.name.map(|name| format!("{name}: ")).unwrap_or_default();
+            finding(format!("{name}{}", fault.found), false, Weight::Fault, fault.advice)
+        })
+        .collect();
+    match verdict.status {
+        Status::Right => findings.push(finding("right".to_owned(), true, Weight::Fault, "")),
+        Status::RightUnderAnotherReading => {
+            let found =
+                format!("right under another fair reading: {}", verdict.readings.join("; "));
+            findings.push(finding(found, true, Weight::Fault, ""));
+        }
+        Status::NotReached => {
+            let advice = "Mend what keeps this section from being reached.";
+            findings.push(finding("not reached".to_owned(), false, Weight::Remark, advice));
+        }
+        Status::Wrong => {}
+    }
+    let remarks = verdict.remarks.iter();
+    findings.extend(remarks.map(|text| finding(text.clone(), false, Weight::Remark, "")));
+    findings
+}
+
+fn whole(report: &Report) -> Option<Finding> {
+    if report.sections.is_empty() {
+        return None;
+    }
+    let passed = report.whole.death.is_none() && report.whole.is_reference();
+    // With right sections and numbers of its own, a run need not be the reference's.
+    let weight = if report.whole.death.is_some() { Weight::Fault } else { Weight::Remark };
+    Some(Finding {
+        check: WHOLE,
+        section: None,
+        expected: "the reference's photons, or as many of them everywhere".to_owned(),
+        found: report.whole.sentence(report.is_right()),
+        p_value: None,
+        passed,
+        weight,
+        advice: "".into(),
+    })
+}

@@ -1,0 +1,67 @@
+//! Code that misbehaves: one clear line under the section in which it happened, and the rest is judged.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use check::compile::Workshop;
+use check::find::Submission;
+use check::run::run;
+use check::sections::{Status, judge};
+
+/// How long a run may take at most; a step of a small scene has its own patience within.
+const TIME: Duration = Duration::from_secs(2);
+
+/// What the light does, and what is said of it under Photon Emission; nothing where it comes to nothing.
+const DEEDS: [(&str, &str); 13] = [
+    ("loop", "does not end within"),
+    ("crash", "segmentation fault"),
+    ("abort", "aborts"),
+    ("exit", "ends the whole program with exit code 0"),
+    ("kill", "aborts"),
+    ("output", "prints more than"),
+    ("memory", "of memory"),
+    ("recursion", "overflows the stack"),
+    ("throw", "throws an exception: on purpose"),
+    ("forks", ""),
+    ("socket", ""),
+    ("file", ""),
+    ("print", ""),
+];
+
+#[test]
+fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
+    let Some(kit) = support::kit() else { return };
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let light = tests.join("hostile/PointLight.cpp");
+    let renderer = tests.join("submissions/one_function/PhotonMappingRenderer.cpp");
+    let submission = Submission::of_files(&light, &renderer);
+    let workshop = Workshop::new(kit, &light, &renderer, &submission, Duration::from_secs(60));
+    let workshop = workshop.expect("a workshop");
+    let program = workshop.build(1).expect("a compiler").expect("it compiles");
+    let observed = |deed: &str| {
+        fs::write(workshop.path().join("mistake"), deed).expect("can be written");
+        run(&program, workshop.path(), 100, TIME).expect("it runs")
+    };
+    for (deed, words) in DEEDS {
+        let start = Instant::now();
+        let verdicts = judge(&observed(deed));
+        let emission = &verdicts[0];
+        if words.is_empty() {
+            assert_eq!(emission.status, Status::Right, "{deed}: {emission:#?}");
+        } else {
+            let told = emission.faults.iter().any(|fault| fault.found.contains(words));
+            assert!(told, "{deed}: {emission:#?}");
+        }
+        for verdict in &verdicts[1..] {
+            assert_eq!(verdict.status, Status::Right, "{deed}: {verdict:#?}");
+        }
+        assert!(start.elapsed() < 12 * TIME, "{deed} takes {:?}", start.elapsed());
+    }
+    for (deed, words) in [("static-exit", "exit code 0"), ("static-loop", "does not end")] {
+        let death = observed(deed).before_any.expect("it never begins");
+        assert!(death.sentence().contains(words), "{deed}: {death:?}");
+    }
+}

@@ -1,0 +1,72 @@
+// What a submission may do that is worse than a wrong picture: the file "mistake" says what.
+#include "common/Scene/Lights/Point/PointLight.h"
+
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <thread>
+#include <unistd.h>
+
+static std::string chosen()
+{
+    char text[32] = "";
+    if (std::FILE* file = std::fopen("mistake", "r")) {
+        if (std::fscanf(file, "%31s", text) != 1) text[0] = 0;
+        std::fclose(file);
+    }
+    return text;
+}
+
+static const std::string deed = chosen();
+
+struct AtStart
+{
+    AtStart()
+    {
+        if (deed == "static-exit") std::exit(0);
+        if (deed == "static-loop") for (volatile int i = 0;; i = 1) {}
+    }
+} atStart;
+
+static int recurse(int depth)
+{
+    volatile char page[4096];
+    page[0] = static_cast<char>(depth);
+    return recurse(depth + 1) + page[0];
+}
+
+void PointLight::ComputeSampleRays(std::vector<Ray>&, glm::vec3, glm::vec3) const {}
+float PointLight::ComputeLightAttenuation(glm::vec3) const { return 1.f; }
+
+void PointLight::GenerateRandomPhotonRay(Ray& ray) const
+{
+    if (deed == "loop") for (volatile int i = 0;; i = 1) {}
+    if (deed == "crash") { volatile int* nowhere = nullptr; *nowhere = 1; }
+    if (deed == "abort") std::abort();
+    if (deed == "exit") std::exit(0);
+    if (deed == "kill") { syscall(SYS_kill, getppid(), 9); syscall(SYS_kill, -1, 9); std::abort(); }
+    if (deed == "forks") for (int i = 0; i < 1000; ++i) { fork(); syscall(SYS_fork); }
+    if (deed == "socket" && socket(AF_INET, SOCK_STREAM, 0) >= 0) std::abort();
+    if (deed == "file" && std::fopen("plan.txt", "w") != nullptr) std::abort();
+    if (deed == "output") for (;;) std::puts(std::string(1 << 16, 'x').c_str());
+    if (deed == "memory") {
+        std::vector<std::vector<char>> all;
+        for (;;) all.emplace_back(64 << 20, 'x');
+    }
+    if (deed == "recursion") recurse(0);
+    if (deed == "throw") throw std::runtime_error("on purpose");
+    if (deed == "print") std::puts("hello");
+
+    float x, y, z, sum;
+    do {
+        x = 2.f * ((float)rand() / RAND_MAX) - 1.f;
+        y = 2.f * ((float)rand() / RAND_MAX) - 1.f;
+        z = 2.f * ((float)rand() / RAND_MAX) - 1.f;
+        sum = x * x + y * y + z * z;
+    } while (sum > 1.f || sum == 0.f);
+    ray.SetRayPosition(glm::vec3(GetPosition()));
+    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
+}
