@@ -59,7 +59,8 @@ pub struct GradeArgs {
     /// Photon lists (PLY or CSV) and pictures (PNG) of the handout's scene, or folders with them
     #[arg(value_name = "SUBMISSION", required = true)]
     submissions: Vec<PathBuf>,
-    /// How many photons were sent out [default: what the intensities say, if they do]
+    /// How many photons the submissions emitted, if their lists have no intensity column that says it
+    /// [default: from the intensities]
     #[arg(long, value_name = "N", allow_negative_numbers = true,
           value_parser = values::whole(1, u64::from(u32::MAX)))]
     emitted: Option<u64>,
@@ -67,7 +68,7 @@ pub struct GradeArgs {
     #[arg(long, value_name = "N", default_value_t = assignment8::MAX_PHOTON_BOUNCES,
           allow_negative_numbers = true, value_parser = values::whole(0_i32, 1000))]
     max_bounces: i32,
-    /// The seed of lists that follow the reference's random numbers
+    /// The seed that submissions used, if they draw the reference's random numbers; others need none
     #[arg(long, value_name = "N", default_value_t = assignment8::SEED,
           allow_negative_numbers = true, value_parser = values::whole(0, u64::MAX))]
     seed: u64,
@@ -77,8 +78,8 @@ pub struct GradeArgs {
     /// A JSON file with a course's own scores, see below
     #[arg(long, value_name = "FILE.json")]
     policy: Option<PathBuf>,
-    /// Where to write the grades, instead of standard output: a file, or a folder that is there already
-    /// or for several submissions
+    /// Where to write the grades: a file for text, JSON, CSV or one submission; a folder for pages or
+    /// results.json of several submissions [default: standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]

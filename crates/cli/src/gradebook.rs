@@ -70,14 +70,15 @@ impl GradebookArgs {
         }
         let exported = export::students(paths);
         let known = handed_in.drain(..).map(|one| {
-            let student = exported.get(&one.submission.name).cloned();
-            (student.or_else(|| export::in_name(&one.submission.name)), one)
+            let word = last_word(&one.submission.name);
+            let student = exported.get(word).cloned();
+            (student.or_else(|| export::in_name(word)), one)
         });
         let mut known = join(known.collect());
         if let Some(path) = &self.roster {
             let roster = export::roster(path)?;
             let place = |one: &(Option<Student>, HandedIn)| {
-                let name = &one.1.submission.name;
+                let name = last_word(&one.1.submission.name);
                 roster.iter().position(|student| student.is(name, one.0.as_ref()))
             };
             known.sort_by_key(|one| place(one).unwrap_or(usize::MAX));
@@ -105,6 +106,17 @@ impl GradebookArgs {
             handed_in.push(one);
         }
         Ok(class)
+    }
+}
+
+/// What a student or a course system called the file or folder `name`: its path's end, without what says
+/// that it is a list or a picture.
+fn last_word(name: &str) -> &str {
+    let word = Path::new(name).file_name().and_then(|word| word.to_str()).unwrap_or(name);
+    let is_kind = |kind: &str| ["csv", "ply", "png"].contains(&kind.to_lowercase().as_str());
+    match word.rsplit_once('.') {
+        Some((word, kind)) if is_kind(kind) => word,
+        _ => word,
     }
 }
 
@@ -201,7 +213,7 @@ impl Class {
             let remarks = each_once(remarks.map(|finding| finding.check));
             let misreading = grade.misreading.unwrap_or_default().to_owned();
             rows.push(vec![
-                grade.submission.clone(),
+                last_word(&grade.submission).to_owned(),
                 student.id.clone(),
                 student.email.clone(),
                 grade.score.to_string(),
@@ -218,8 +230,10 @@ impl Class {
         }
         if !self.before.is_empty() {
             rows[0].extend(["score before", "verdict before"].map(str::to_owned));
-            for row in &mut rows[1..] {
-                let before = self.before.get(&row[0]);
+            let names = grades.iter().map(|grade| Some(&grade.submission));
+            let names = names.chain(self.absent.iter().map(|_| None));
+            for (row, name) in rows[1..].iter_mut().zip(names) {
+                let before = name.and_then(|name| self.before.get(name));
                 row.push(before.map(|before| before.score.to_string()).unwrap_or_default());
                 row.push(before.map(|before| before.verdict.clone()).unwrap_or_default());
             }
