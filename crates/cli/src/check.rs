@@ -137,9 +137,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
                 let of_list = grading::submission::Submission { name, ..Default::default() };
                 pages.page(&of_list, &graded)
             }
-            FormatName::Gradescope => {
-                json(&gradescope::results(&graded.grade, best, report.seconds.iter().sum()))
-            }
+            FormatName::Gradescope => json(&gradescope::results(&graded.grade, best)),
             _ => String::new(),
         };
         if let Some(path) = &arguments.list {

@@ -39,11 +39,12 @@ pub struct CompareArgs {
     /// with --seed or --photons a list alone, and the reference is traced on the spot
     #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
-    /// For lists: how far apart two positions may be that count as one, as a part of the scene's
-    /// longest edge
+    /// For lists: two positions closer than this are the same, as a fraction of the scene's longest
+    /// edge (0.0001 is a fifth of a millimetre in a box of two metres)
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
     tolerance: f32,
-    /// For lists: which part of the records may differ before the lists do
+    /// For lists: the fraction of the records that may differ while the lists still count as the same
+    /// (0.001 allows one in a thousand)
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     allow: f32,
     /// For lists: count as different what is the same only under another fair reading of the handout

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::error::{CliError, print};
+use super::gradebook::GradebookArgs;
 use super::output::OutputFile;
 use super::values;
 use grading::class::grade_one;
@@ -58,7 +59,8 @@ pub struct GradeArgs {
     /// Photon lists (PLY or CSV) and pictures (PNG) of the handout's scene, or folders with them
     #[arg(value_name = "SUBMISSION", required = true)]
     submissions: Vec<PathBuf>,
-    /// How many photons were sent out [default: what the intensities say, if they do]
+    /// How many photons the submissions emitted, if their lists have no intensity column that says it
+    /// [default: from the intensities]
     #[arg(long, value_name = "N", allow_negative_numbers = true,
           value_parser = values::whole(1, u64::from(u32::MAX)))]
     emitted: Option<u64>,
@@ -66,7 +68,7 @@ pub struct GradeArgs {
     #[arg(long, value_name = "N", default_value_t = assignment8::MAX_PHOTON_BOUNCES,
           allow_negative_numbers = true, value_parser = values::whole(0_i32, 1000))]
     max_bounces: i32,
-    /// The seed of lists that follow the reference's random numbers
+    /// The seed that submissions used, if they draw the reference's random numbers; others need none
     #[arg(long, value_name = "N", default_value_t = assignment8::SEED,
           allow_negative_numbers = true, value_parser = values::whole(0, u64::MAX))]
     seed: u64,
@@ -76,10 +78,12 @@ pub struct GradeArgs {
     /// A JSON file with a course's own scores, see below
     #[arg(long, value_name = "FILE.json")]
     policy: Option<PathBuf>,
-    /// Where to write the grades, instead of standard output: a file, or a folder that is there already
-    /// or for several submissions
+    /// Where to write the grades: a file for text, JSON, CSV or one submission; a folder for pages or
+    /// results.json of several submissions [default: standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    gradebook: GradebookArgs,
 }
 
 /// The names of the formats.
@@ -93,13 +97,15 @@ enum FormatName {
     Gradescope,
     /// A page that needs no other file, one a submission
     Html,
+    /// A table for a gradebook, with a row for each submission
+    Csv,
 }
 
 impl FormatName {
     /// The extension of its files, where each submission has one of its own.
     fn of_each(self) -> Option<&'static str> {
         match self {
-            Self::Text | Self::Json => None,
+            Self::Text | Self::Json | Self::Csv => None,
             Self::Gradescope => Some("json"),
             Self::Html => Some("html"),
         }
@@ -122,7 +128,8 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     if there.is_empty() {
         return Err(no_such_file(&missing));
     }
-    let handed_in = collect(&there);
+    let mut handed_in = collect(&there);
+    let class = arguments.gradebook.class(&there, &mut handed_in)?;
     let folder = folder(arguments, handed_in.len() + missing.len())?;
     let expectations = expectations(arguments.max_bounces);
     let best = settings.policy.best();
@@ -136,7 +143,7 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
         });
         bar.inc(1);
         let output = match arguments.format {
-            FormatName::Text | FormatName::Json => String::new(),
+            FormatName::Text | FormatName::Json | FormatName::Csv => String::new(),
             FormatName::Gradescope => json(&gradescope::results(&graded.grade, best)),
             FormatName::Html => pages.page(&handed_in.submission, &graded),
         };
@@ -154,8 +161,10 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     let (grades, mut outputs): (Vec<Grade>, Vec<String>) = graded?.into_iter().unzip();
     let output = match (arguments.format, grades.as_slice()) {
         (FormatName::Text, grades) => {
-            grades.iter().map(|grade| text::text(grade, best)).collect::<Vec<_>>().join("\n")
+            let texts: Vec<_> = grades.iter().map(|grade| text::text(grade, best)).collect();
+            texts.join("\n") + &class.text(grades)
         }
+        (FormatName::Csv, grades) => class.csv(grades, settings.policy.unreadable),
         (FormatName::Json, [grade]) if missing.is_empty() => json(grade),
         (FormatName::Json, grades) => json(&grades),
         (FormatName::Gradescope | FormatName::Html, _) => outputs.pop().unwrap_or_default(),

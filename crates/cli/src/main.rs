@@ -5,10 +5,13 @@ mod beside_expected;
 mod check;
 mod compare;
 mod error;
+mod examples;
 mod expect;
 mod explain;
 mod explore;
+mod export;
 mod grade;
+mod gradebook;
 mod kit;
 mod merge;
 mod output;
@@ -23,7 +26,7 @@ mod values;
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 
 /// The exit code of everything that could not be done.
 const FAILED: u8 = 2;
@@ -91,7 +94,9 @@ fn main() -> ExitCode {
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
 /// code.
 fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(shell::quiet_after_verb(arguments.into_iter().collect())) {
+    let arguments = shell::quiet_after_verb(arguments.into_iter().collect());
+    let matches = examples::command().try_get_matches_from(arguments);
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) if !error.use_stderr() => {
             // Help and version; a closed pipe is the reader's choice.

@@ -33,8 +33,8 @@ use variants::sampler::Sampler;
 pub struct RenderArgs {
     #[command(flatten)]
     run: RunArgs,
-    /// Trace only the photons numbered A up to, but not with, B; the lists of adjoining ranges,
-    /// one after another, are the whole run's list [default: all]
+    /// Trace only a part of the run: 0..500000 are the photons 0 to 499999. 'merge' joins the parts
+    /// [default: all]
     #[arg(long, value_name = "A..B", value_parser = values::range)]
     range: Option<Range<u64>>,
     /// How many threads to use; the list does not depend on it [default: one for each core]
@@ -58,7 +58,8 @@ pub struct RenderArgs {
     /// photons; `merge` adds up the JSON summaries of adjoining ranges
     #[arg(long, conflicts_with_all = ["photons_from", "format", "size", "out"])]
     count_only: bool,
-    /// Where the random numbers come from; all golden lists belong to chacha
+    /// Where the random numbers come from. Keep chacha to compare lists with the reference; sobol gives
+    /// other photons, whose counts are closer to the expected values
     #[arg(long, value_enum, default_value_t = SamplerName::Chacha)]
     sampler: SamplerName,
     /// No progress bars

@@ -48,11 +48,11 @@ impl SceneArgs {
 /// Which run of the reference is meant.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// The key of all random numbers, a whole number below 2^64 [default: 148]
+    /// The seed of all random numbers: the same seed gives the same photons [default: 148]
     #[arg(long, value_name = "N", allow_negative_numbers = true,
           value_parser = values::whole(0, u64::MAX))]
     pub seed: Option<u64>,
-    /// How many photons all lights send out together, up to 2^32 - 1 [default: 1000000]
+    /// How many photons are emitted, over all lights, up to 2^32 - 1 [default: 1000000]
     #[arg(long, value_name = "N",
           allow_negative_numbers = true, value_parser = values::whole(1, u64::from(u32::MAX)))]
     pub photons: Option<u64>,
@@ -62,7 +62,7 @@ pub struct RunArgs {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// Do not normalise t and b of equations (7) and (8), to see the difference it makes
+    /// Use t and b as equations (7) and (8) give them, without normalising, to see what that changes
     #[arg(long)]
     pub letter_of_the_handout: bool,
 }

@@ -2,12 +2,12 @@
 
 use std::ffi::OsString;
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::Cli;
 use super::error::{CliError, print};
+use super::examples::command;
 
 /// The options of `completions`.
 #[derive(Debug, Args)]
@@ -33,7 +33,7 @@ pub struct ManArgs {
 /// When standard output cannot be written.
 pub fn completions(arguments: &CompletionsArgs) -> Result<u8, CliError> {
     let mut text = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Cli::command(), "photon-mapping", &mut text);
+    clap_complete::generate(arguments.shell, &mut command(), "photon-mapping", &mut text);
     print(&String::from_utf8_lossy(&text))?;
     Ok(0)
 }
@@ -43,9 +43,9 @@ pub fn completions(arguments: &CompletionsArgs) -> Result<u8, CliError> {
 /// # Errors
 /// When there is no such verb, or standard output cannot be written.
 pub fn man(arguments: &ManArgs) -> Result<u8, CliError> {
-    let mut program = Cli::command();
+    let mut program = command();
     program.build();
-    let command = match &arguments.verb {
+    let page_of = match &arguments.verb {
         None => program,
         Some(verb) => program.find_subcommand(verb).cloned().ok_or_else(|| {
             let verbs: Vec<&str> = program.get_subcommands().map(|verb| verb.get_name()).collect();
@@ -54,7 +54,7 @@ pub fn man(arguments: &ManArgs) -> Result<u8, CliError> {
         })?,
     };
     let mut page = Vec::new();
-    Man::new(command).render(&mut page).expect("memory takes everything");
+    Man::new(page_of).render(&mut page).expect("memory takes everything");
     print(&String::from_utf8_lossy(&page))?;
     Ok(0)
 }
@@ -63,7 +63,7 @@ pub fn man(arguments: &ManArgs) -> Result<u8, CliError> {
 pub fn quiet_after_verb(mut words: Vec<OsString>) -> Vec<OsString> {
     let is_quiet = words.get(1).is_some_and(|word| word == "-q" || word == "--quiet");
     let verb = words.get(2).and_then(|word| word.to_str());
-    if is_quiet && verb.is_some_and(|verb| Cli::command().find_subcommand(verb).is_some()) {
+    if is_quiet && verb.is_some_and(|verb| command().find_subcommand(verb).is_some()) {
         words.swap(1, 2);
     }
     words

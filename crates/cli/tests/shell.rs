@@ -43,14 +43,25 @@ fn the_version_names_the_photon_lists() {
 fn what_may_have_been_meant_is_told() {
     fails("grade --polcy p.json a.csv", &[], &["--polcy", "tip", "--policy"]);
     fails("render --seeed 1", &[], &["--seeed", "tip", "--seed"]);
-    fails("help rendr", &[], &["rendr", "tip", "'render'"]);
+    fails("rendr", &[], &["rendr", "tip", "'render'"]);
 }
 
 #[test]
 fn quiet_works_before_and_after_the_verb() {
     let folder = folder();
     for line in ["-q render", "--quiet render", "render -q", "render --quiet"] {
-        let line = format!("{line} --photons 100 --count-only --out {{}}");
+        let line = format!("{line} --photons 100 --size 1x1 --out {{}}");
         run_line(&line, &[folder.path()]).success();
+    }
+}
+
+#[test]
+fn each_verbs_help_ends_with_an_example() {
+    for verb in VERBS.iter().chain(&["report", "autograde", "completions", "man"]) {
+        for option in ["-h", "--help"] {
+            let text = stdout(run_line(&format!("{verb} {option}"), &[]).success());
+            let (_, example) = text.rsplit_once("Example").unwrap_or_else(|| panic!("{verb}"));
+            assert!(example.contains(&format!("photon-mapping {verb}")), "{verb}: {example}");
+        }
     }
 }

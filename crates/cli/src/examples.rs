@@ -1,0 +1,28 @@
+//! An example at the end of each verb's help.
+
+use clap::{Command, CommandFactory};
+
+use super::Cli;
+
+/// Verbs, and how they are used most.
+const EXAMPLES: [(&str, &str); 9] = [
+    ("render", "photon-mapping render --seed 7 --photons 200000 --out run7/"),
+    ("compare", "photon-mapping compare --seed 148 --photons 1000000 submission.csv"),
+    ("explain", "photon-mapping explain 73"),
+    ("explore", "photon-mapping explore --photon 73 --out page/"),
+    ("grade", "photon-mapping grade class/ --format html --out pages/"),
+    ("expect", "photon-mapping expect --quick"),
+    ("merge", "photon-mapping merge part1/photons.ply part2/photons.ply --out photons.ply"),
+    ("report", "photon-mapping report --quick --out report/"),
+    ("kit", "photon-mapping kit gradescope --out kit/"),
+];
+
+/// The command line, with an example for each verb.
+pub fn command() -> Command {
+    EXAMPLES.iter().fold(Cli::command(), |command, (verb, example)| {
+        command.mut_subcommand(verb, |verb| {
+            let before = verb.get_after_help().map(|help| format!("{help}\n\n"));
+            verb.after_help(format!("{}Example: {example}", before.unwrap_or_default()))
+        })
+    })
+}

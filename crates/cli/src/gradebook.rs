@@ -1,0 +1,269 @@
+//! Grades for a gradebook: students by the names of a roster or of a course system's export, a row for
+//! each, and what a regrade changed.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use grading::intake::HandedIn;
+use grading::text::verdict_in_words;
+use grading::verdict::{Grade, Weight};
+use serde::Deserialize;
+
+use super::error::CliError;
+use super::export::{self, Student};
+
+/// The options that are about the class, not about photons.
+#[derive(Debug, Args)]
+pub struct GradebookArgs {
+    /// A CSV file with a column for names, and one for ids or e-mail addresses if there is one: names and
+    /// orders the submissions, and tells who handed in nothing
+    #[arg(long, value_name = "FILE.csv")]
+    roster: Option<PathBuf>,
+    /// Number the submissions in place of names, to show the grades around
+    #[arg(long, conflicts_with = "roster")]
+    anonymous: bool,
+    /// The grades of an earlier run, written with --format json: says what changed
+    #[arg(long, value_name = "OLD.json")]
+    before: Option<PathBuf>,
+}
+
+/// Whose submissions are graded, in the order of the submissions.
+#[derive(Debug, Default)]
+pub struct Class {
+    students: Vec<Option<Student>>,
+    absent: Vec<Student>,
+    before: BTreeMap<String, Before>,
+    is_anonymous: bool,
+}
+
+/// A grade of an earlier run.
+#[derive(Debug, Deserialize)]
+struct Before {
+    submission: String,
+    score: f64,
+    verdict: String,
+}
+
+/// The grades of an earlier run: of one submission, or of several.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Earlier {
+    One(Before),
+    Several(Vec<Before>),
+}
+
+impl GradebookArgs {
+    /// Names and orders what was `handed_in` at `paths`.
+    ///
+    /// # Errors
+    /// When the roster or the earlier grades cannot be read.
+    pub fn class(
+        &self,
+        paths: &[PathBuf],
+        handed_in: &mut Vec<HandedIn>,
+    ) -> Result<Class, CliError> {
+        let mut class = Class { is_anonymous: self.anonymous, ..Class::default() };
+        if let Some(path) = &self.before {
+            class.before = earlier(path)?;
+        }
+        let exported = export::students(paths);
+        let known = handed_in.drain(..).map(|one| {
+            let word = last_word(&one.submission.name);
+            let student = exported.get(word).cloned();
+            (student.or_else(|| export::in_name(word)), one)
+        });
+        let mut known = join(known.collect());
+        if let Some(path) = &self.roster {
+            let roster = export::roster(path)?;
+            let place = |one: &(Option<Student>, HandedIn)| {
+                let name = last_word(&one.1.submission.name);
+                roster.iter().position(|student| student.is(name, one.0.as_ref()))
+            };
+            known.sort_by_key(|one| place(one).unwrap_or(usize::MAX));
+            let places: Vec<Option<usize>> = known.iter().map(place).collect();
+            for ((student, _), place) in known.iter_mut().zip(&places) {
+                *student = place.map(|place| roster[place].clone()).or(student.take());
+            }
+            let is_absent = |(place, _): &(usize, Student)| !places.contains(&Some(*place));
+            let absent = roster.into_iter().enumerate().filter(is_absent);
+            class.absent = absent.map(|(_, student)| student).collect();
+        }
+        if self.anonymous {
+            // By name, their numbers would tell who is who.
+            known.sort_by_key(|(_, one)| number(&one.submission.name));
+        }
+        for (at, (student, mut one)) in known.into_iter().enumerate() {
+            if self.anonymous {
+                one.submission.name = format!("submission {}", at + 1);
+                one.twins.clear();
+                one.notes.clear();
+            } else if let Some(student) = &student {
+                one.submission.name.clone_from(&student.name);
+            }
+            class.students.push(student);
+            handed_in.push(one);
+        }
+        Ok(class)
+    }
+}
+
+/// What a student or a course system called the file or folder `name`: its path's end, without what says
+/// that it is a list or a picture.
+fn last_word(name: &str) -> &str {
+    let word = Path::new(name).file_name().and_then(|word| word.to_str()).unwrap_or(name);
+    let is_kind = |kind: &str| ["csv", "ply", "png"].contains(&kind.to_lowercase().as_str());
+    match word.rsplit_once('.') {
+        Some((word, kind)) if is_kind(kind) => word,
+        _ => word,
+    }
+}
+
+/// A number that depends on every letter of `name`, and on nothing else.
+fn number(name: &str) -> u64 {
+    let step = |sum: u64, byte: u8| (sum ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+    name.bytes().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+/// A list and a picture of one student that an export names apart become one submission.
+fn join(all: Vec<(Option<Student>, HandedIn)>) -> Vec<(Option<Student>, HandedIn)> {
+    let mut joined: Vec<(Option<Student>, HandedIn)> = Vec::new();
+    for (student, one) in all {
+        let fits = |other: &&mut (Option<Student>, HandedIn)| {
+            let (a, b) = (&one.submission, &other.1.submission);
+            student.is_some()
+                && student == other.0
+                && !(a.list.is_some() && b.list.is_some())
+                && !(a.picture.is_some() && b.picture.is_some())
+                && one.problem.is_none()
+                && other.1.problem.is_none()
+        };
+        match joined.iter_mut().find(fits) {
+            Some((_, other)) => {
+                let submission = &mut other.submission;
+                submission.list = submission.list.take().or(one.submission.list);
+                submission.picture = submission.picture.take().or(one.submission.picture);
+                other.notes.extend(one.notes);
+                other.twins.extend(one.twins);
+            }
+            None => joined.push((student, one)),
+        }
+    }
+    joined
+}
+
+fn earlier(path: &Path) -> Result<BTreeMap<String, Before>, CliError> {
+    let text = fs::read_to_string(path).map_err(|error| CliError::unreadable(path, error))?;
+    let grades = match serde_json::from_str(&text) {
+        Ok(Earlier::One(grade)) => vec![grade],
+        Ok(Earlier::Several(grades)) => grades,
+        Err(_) => {
+            let path = path.display();
+            let message = format!("{path}: expected the grades of grade --format json");
+            return Err(CliError::Argument(message));
+        }
+    };
+    Ok(grades.into_iter().map(|grade| (grade.submission.clone(), grade)).collect())
+}
+
+impl Class {
+    /// What people read after the grades: what changed, and who handed in nothing.
+    pub fn text(&self, grades: &[Grade]) -> String {
+        let mut text = String::new();
+        let changed = grades.iter().filter_map(|grade| {
+            let before = self.before.get(&grade.submission)?;
+            let verdict = json_name(grade);
+            let is_same = before.score == grade.score && before.verdict == verdict;
+            (!is_same).then(|| {
+                format!(
+                    "{}: was {}, {} points; is {verdict}, {} points",
+                    grade.submission, before.verdict, before.score, grade.score
+                )
+            })
+        });
+        let changed: Vec<String> = changed.collect();
+        if !self.before.is_empty() {
+            let count = changed.len();
+            text += &format!("\nchanged since the earlier grades: {count}\n");
+            text += &changed.iter().map(|line| format!("  {line}\n")).collect::<String>();
+        }
+        if !self.absent.is_empty() {
+            let names: Vec<&str> = self.absent.iter().map(|one| one.name.as_str()).collect();
+            text += &format!("\nhanded in nothing: {}\n", names.join(", "));
+        }
+        text
+    }
+
+    /// The grades as CSV: a row for each submission, and one for each student without any.
+    pub fn csv(&self, grades: &[Grade], score_of_nothing: f64) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let head = ["name", "id", "email", "score", "verdict", "sections", "misreading", "remarks"];
+        let mut rows = vec![head.map(str::to_owned).to_vec()];
+        let nobody = Student::default();
+        for (at, grade) in grades.iter().enumerate() {
+            let student = self.students.get(at).and_then(Option::as_ref).unwrap_or(&nobody);
+            let student = if self.is_anonymous { &nobody } else { student };
+            let faults = grade.findings.iter().filter(|finding| finding.is_fault());
+            let sections = each_once(faults.filter_map(|finding| finding.section));
+            let is_remark = |finding: &&grading::verdict::Finding| {
+                !finding.passed && finding.weight == Weight::Remark
+            };
+            let remarks = grade.findings.iter().filter(is_remark);
+            let remarks = each_once(remarks.map(|finding| finding.check));
+            let misreading = grade.misreading.unwrap_or_default().to_owned();
+            rows.push(vec![
+                last_word(&grade.submission).to_owned(),
+                student.id.clone(),
+                student.email.clone(),
+                grade.score.to_string(),
+                verdict_in_words(grade.verdict).to_owned(),
+                sections,
+                misreading,
+                remarks,
+            ]);
+        }
+        for Student { name, id, email } in &self.absent {
+            let (score, verdict) = (score_of_nothing.to_string(), "nothing handed in".to_owned());
+            let row = [name.clone(), id.clone(), email.clone(), score, verdict];
+            rows.push([row.to_vec(), vec![String::new(); 3]].concat());
+        }
+        if !self.before.is_empty() {
+            rows[0].extend(["score before", "verdict before"].map(str::to_owned));
+            let names = grades.iter().map(|grade| Some(&grade.submission));
+            let names = names.chain(self.absent.iter().map(|_| None));
+            for (row, name) in rows[1..].iter_mut().zip(names) {
+                let before = name.and_then(|name| self.before.get(name));
+                row.push(before.map(|before| before.score.to_string()).unwrap_or_default());
+                row.push(before.map(|before| before.verdict.clone()).unwrap_or_default());
+            }
+        }
+        for row in rows {
+            let cells = row.iter().map(|cell| without_formula(cell));
+            writer.write_record(cells).expect("memory takes everything");
+        }
+        String::from_utf8(writer.into_inner().expect("memory takes everything"))
+            .expect("it was made of text")
+    }
+}
+
+fn json_name(grade: &Grade) -> String {
+    let name = serde_json::to_value(grade.verdict).expect("a verdict has a name");
+    name.as_str().unwrap_or_default().to_owned()
+}
+
+fn each_once<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    let mut once: Vec<&str> = Vec::new();
+    for word in words {
+        if !once.contains(&word) {
+            once.push(word);
+        }
+    }
+    once.join("; ")
+}
+
+/// Spreadsheets run a cell that starts like a formula, and students choose the names of files.
+fn without_formula(cell: &str) -> String {
+    let is_formula = cell.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    if is_formula && cell.parse::<f64>().is_err() { format!("'{cell}") } else { cell.to_owned() }
+}
