@@ -40,7 +40,11 @@ impl SceneArgs {
     pub fn load(&self) -> Result<(Scene, Placement), CliError> {
         match &self.scene {
             None => Ok((assignment8::create_scene(), Placement::WORLD)),
-            Some(path) => Ok(model::place(obj::load(path)?, &self.light)),
+            Some(path) => {
+                let model = obj::load(path)?;
+                model.notes.iter().for_each(|note| eprintln!("note: {note}"));
+                Ok(model::place(model, &self.light))
+            }
         }
     }
 }
