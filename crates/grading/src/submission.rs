@@ -15,7 +15,7 @@ use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
 use super::verdict::{Finding, Grade, Verdict, Weight};
-use photon_list::error::ListError;
+use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
 
@@ -71,21 +71,28 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         };
     };
     let mut graded = match reader::load_at_most(path, MOST_RECORDS) {
-        Ok((mut list, guessed)) => {
+        Ok((mut list, notes)) => {
             let is_turned = axes::turn_to_world(&mut list, &expectations.places);
             let mut graded = grade_list(submission, list, settings, expectations);
             let turned =
                 is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
-            let notes = guessed.as_deref().into_iter().chain(turned);
-            graded.grade.findings.extend(notes.map(|note| {
+            let guessed = notes.guessed.as_deref().filter(|_| !is_link(path));
+            graded.grade.findings.extend(guessed.into_iter().chain(turned).map(|note| {
                 let expected = "columns x, y and z, in world space, with commas between them";
                 let advice = "Write the position as the framework has it, under these names.";
                 remark("format", expected, note, advice)
             }));
+            graded.grade.findings.extend(notes.left_out.iter().map(|reason| {
+                let expected = "numbers in every column that is judged";
+                let advice = "Write this column as the dump header does, or leave it out.";
+                remark("columns", expected, &told(path, reason), advice)
+            }));
             graded
         }
         // The name of the submission says already which file it is.
-        Err(ListError::Malformed { message, .. }) => unreadable(submission, settings, &message),
+        Err(ListError::Malformed { reason, .. }) => {
+            unreadable(submission, settings, &told(path, &reason))
+        }
         Err(ListError::Unreadable { source, .. }) => {
             unreadable(submission, settings, &format!("it cannot be read: {source}"))
         }
@@ -117,6 +124,15 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         }
     }
     graded
+}
+
+/// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
+fn told(path: &Path, reason: &Reason) -> String {
+    if is_link(path) { reason.message.clone() } else { reason.to_string() }
+}
+
+fn is_link(path: &Path) -> bool {
+    path.symlink_metadata().is_ok_and(|about| about.is_symlink())
 }
 
 fn grade_picture(
