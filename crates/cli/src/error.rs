@@ -1,5 +1,6 @@
 //! What the command line can fail with; each is one clear line.
 
+use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -51,16 +52,29 @@ impl CliError {
     }
 }
 
-/// Prints `text` to standard output. That its reader has closed it is the reader's choice, no error.
+/// Prints `text` to standard output.
 ///
 /// # Errors
-/// When standard output cannot be written.
+/// When standard output cannot be written, also because its reader has closed it: a grade that nobody
+/// has read must not look like one that somebody has.
 pub fn print(text: &str) -> Result<(), CliError> {
     let mut output = io::stdout().lock();
-    io::Write::write_all(&mut output, text.as_bytes())
+    io::Write::write_all(&mut output, escaped(text).as_bytes())
         .and_then(|()| io::Write::flush(&mut output))
-        .or_else(|error| match error.kind() {
-            io::ErrorKind::BrokenPipe => Ok(()),
-            _ => Err(CliError::Output(error)),
-        })
+        .map_err(CliError::Output)
+}
+
+/// `text` without letters that move the cursor, hide or turn others round: as `\u{1b}`.
+pub fn escaped(text: &str) -> Cow<'_, str> {
+    let is_odd = |letter: char| {
+        (letter.is_control() && !"\n\t".contains(letter)) || grading::text::is_invisible(letter)
+    };
+    if !text.contains(is_odd) {
+        return Cow::Borrowed(text);
+    }
+    let escape = |letter: char| match is_odd(letter) {
+        true => letter.escape_unicode().to_string(),
+        false => letter.to_string(),
+    };
+    Cow::Owned(text.chars().map(escape).collect())
 }

@@ -14,6 +14,7 @@ use super::picture::reading::read_picture;
 use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
+use super::twins::Fingerprint;
 use super::verdict::{Finding, Grade, Verdict, Weight};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
@@ -60,20 +61,44 @@ pub struct Graded {
     pub grade: Grade,
     /// The list, if it could be read, with what was concluded from it.
     pub list: Option<(PhotonList, Judgement)>,
+    /// What tells its photons from others'.
+    pub fingerprint: Option<Fingerprint>,
+    /// Whether a file could not be read, which may be over soon.
+    pub try_again: bool,
+}
+
+impl Graded {
+    fn new(grade: Grade) -> Self {
+        Self { grade, list: None, fingerprint: None, try_again: false }
+    }
 }
 
 /// Grades `submission`. Whatever is wrong with its files is part of the grade.
 pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expectations) -> Graded {
+    grade_at_most(submission, settings, expectations, MOST_RECORDS)
+        .expect("the limit is the largest")
+}
+
+/// As [`grade`], if the list has no more than `most` records, or even [`MOST_RECORDS`].
+pub fn grade_at_most(
+    submission: &Submission,
+    settings: &Settings,
+    expectations: &Expectations,
+    most: usize,
+) -> Option<Graded> {
     let Some(path) = &submission.list else {
-        return match &submission.picture {
+        return Some(match &submission.picture {
             Some(picture) => grade_picture(submission, picture, settings, expectations),
             None => unreadable(submission, settings, "there is no photon list, and no picture"),
-        };
+        });
     };
-    let mut graded = match reader::load_at_most(path, MOST_RECORDS) {
+    let mut graded = match reader::load_at_most(path, most) {
+        Err(ListError::TooLong { most, .. }) if most < MOST_RECORDS => return None,
         Ok((mut list, notes)) => {
             let is_turned = axes::turn_to_world(&mut list, &expectations.places);
+            let fingerprint = Fingerprint::of(&list.records);
             let mut graded = grade_list(submission, list, settings, expectations);
+            graded.fingerprint = fingerprint;
             let turned =
                 is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
             let guessed = notes.guessed.as_deref().filter(|_| !is_link(path));
@@ -93,9 +118,11 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         Err(ListError::Malformed { reason, .. }) => {
             unreadable(submission, settings, &told(path, &reason))
         }
-        Err(ListError::Unreadable { source, .. }) => {
-            unreadable(submission, settings, &format!("it cannot be read: {source}"))
+        Err(ListError::TooLong { most, .. }) => {
+            let reason = format!("expected a list of at most {most} records, found a longer one");
+            unreadable(submission, settings, &reason)
         }
+        Err(ListError::Unreadable { source, .. }) => not_read(submission, settings, &source),
     };
     if let (Some(picture), Verdict::Unreadable) = (&submission.picture, graded.grade.verdict) {
         let of_list = graded.grade.findings.remove(0);
@@ -107,7 +134,8 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         };
         let of_list = Finding { check: "photon list", weight, ..of_list };
         of_picture.grade.findings.push(of_list);
-        return of_picture;
+        of_picture.try_again &= graded.try_again;
+        return Some(of_picture);
     }
     if let Some(picture) = &submission.picture {
         let emitted = settings.emitted.map(|emitted| emitted as f64);
@@ -123,7 +151,13 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
             graded.grade.findings.extend(apart(list, picture, expectations));
         }
     }
-    graded
+    Some(graded)
+}
+
+/// The grade of a submission of which a file could not be read because of `error`.
+fn not_read(submission: &Submission, settings: &Settings, error: &std::io::Error) -> Graded {
+    let reason = format!("it could not be read: {error}: try again");
+    Graded { try_again: true, ..unreadable(submission, settings, &reason) }
 }
 
 /// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
@@ -141,6 +175,9 @@ fn grade_picture(
     settings: &Settings,
     expectations: &Expectations,
 ) -> Graded {
+    if let Err(error) = std::fs::File::open(picture) {
+        return not_read(submission, settings, &error);
+    }
     let emitted = settings.emitted.map(|emitted| emitted as f64);
     let judgement = match judge_picture(picture, emitted, expectations.pictures()) {
         Ok(judgement) => judgement,
@@ -167,7 +204,7 @@ fn grade_picture(
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
     };
-    Graded { grade, list: None }
+    Graded::new(grade)
 }
 
 /// Whether photons straight from the light are part of what explains a submission.
@@ -242,7 +279,7 @@ pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) ->
         misreading_title: None,
         findings: vec![not_readable(reason)],
     };
-    Graded { grade, list: None }
+    Graded::new(grade)
 }
 
 fn not_readable(reason: &str) -> Finding {
@@ -313,7 +350,7 @@ fn grade_list(
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
     };
-    Graded { grade, list: Some((list, judgement)) }
+    Graded { list: Some((list, judgement)), ..Graded::new(grade) }
 }
 
 fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
@@ -340,5 +377,5 @@ fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
         misreading_title: None,
         findings: vec![finding],
     };
-    Graded { grade, list: None }
+    Graded::new(grade)
 }

@@ -17,6 +17,14 @@ pub enum ListError {
         /// What the system said.
         source: io::Error,
     },
+    /// The list has more records than are read.
+    #[error("{}: expected at most {most} records", path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+        /// How many are read.
+        most: usize,
+    },
     /// The file is not a list.
     #[error("{}: {reason}", path.display())]
     Malformed {

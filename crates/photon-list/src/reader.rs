@@ -18,7 +18,9 @@ use super::text::{Lines, decoded};
 const MOST_BYTES: u64 = 1 << 30;
 /// So much of a file is looked at to see whether it is a list.
 const LONGEST_START: u64 = 65_536;
-/// The names of standard input.
+/// Memory is taken for at least so many records at once.
+const LEAST_RESERVED: usize = 1024;
+/// The name of standard input.
 const STANDARD_INPUT: &str = "-";
 
 /// A list in memory.
@@ -78,10 +80,14 @@ pub fn load_at_most(path: &Path, most: usize) -> Result<(PhotonList, Notes), Lis
         let message = format!("expected a list of at most {most} MiB, found {found}");
         return Err(ListError::malformed(path, message));
     }
-    let mut records = Vec::new();
+    let mut records: Vec<PhotonRecord> = Vec::new();
     let mut rows = Rows::new(path, false, |record| {
         if records.len() == most {
-            return Err(ListError::malformed(path, format!("expected at most {most} records")));
+            return Err(ListError::TooLong { path: path.to_owned(), most });
+        }
+        if records.len() == records.capacity() {
+            // Twice as much, as vectors grow, is a lot for long lists.
+            records.reserve_exact(LEAST_RESERVED.max(records.len() / 4));
         }
         records.push(record);
         Ok(true)
@@ -110,7 +116,7 @@ pub fn look(path: &Path) -> io::Result<Look> {
     let input = match open(path, LONGEST_START) {
         Ok(input) => input,
         Err(ListError::Unreadable { source, .. }) => return Err(source),
-        Err(ListError::Malformed { .. }) => return Ok(Look::Other),
+        Err(_) => return Ok(Look::Other),
     };
     let is_mesh = matches!(&input, Input::Ply(_, header) if header.is_mesh());
     let (mut seen, mut is_near) = (0, false);

@@ -1,0 +1,36 @@
+//! What the file of each submission is called.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use grading::intake::HandedIn;
+
+/// The longest name of a file, in bytes: systems have 255, and a number may follow.
+const LONGEST_NAME: usize = 200;
+
+/// For each submission the name of its file: its own, without what systems do not take or what leads
+/// elsewhere, and with `extension`.
+pub fn file_names(handed_in: &[HandedIn], extension: &str) -> Vec<String> {
+    // Also for systems that do not tell capitals apart.
+    let mut seen = HashSet::from(["index".to_owned()]);
+    let mut unique = |handed_in: &HandedIn| {
+        let plain = plain(&handed_in.submission.name);
+        let numbered = (2..).map(|number| format!("{plain}-{number}"));
+        let mut names = std::iter::once(plain.clone()).chain(numbered);
+        names.find(|name| seen.insert(name.to_lowercase())).expect("there is always another number")
+    };
+    handed_in.iter().map(|one| unique(one) + "." + extension).collect()
+}
+
+/// The last part of `name` as the name of a file.
+fn plain(name: &str) -> String {
+    let path = Path::new(name);
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
+    let mut plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
+    plain.truncate(plain.floor_char_boundary(LONGEST_NAME));
+    match plain.trim_start_matches('.') {
+        "" => "submission".to_owned(),
+        plain => plain.to_owned(),
+    }
+}
