@@ -52,12 +52,22 @@ impl CliError {
     }
 }
 
-/// Prints `text` to standard output.
+/// Prints `text` to standard output. That its reader has closed it is the reader's choice, no error.
 ///
 /// # Errors
-/// When standard output cannot be written, also because its reader has closed it: a grade that nobody
-/// has read must not look like one that somebody has.
+/// When standard output cannot be written.
 pub fn print(text: &str) -> Result<(), CliError> {
+    match print_whole(text) {
+        Err(CliError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        printed => printed,
+    }
+}
+
+/// As [`print`], for what must not get lost in silence.
+///
+/// # Errors
+/// When standard output cannot be written, also because its reader has closed it.
+pub fn print_whole(text: &str) -> Result<(), CliError> {
     let mut output = io::stdout().lock();
     io::Write::write_all(&mut output, escaped(text).as_bytes())
         .and_then(|()| io::Write::flush(&mut output))

@@ -88,8 +88,9 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(&words) {
         Ok(cli) => cli,
         Err(error) if !error.use_stderr() => {
-            // Help and version.
-            return if error.print().is_ok() { 0 } else { FAILED };
+            // Help and version; a closed pipe is the reader's choice.
+            let _ = error.print();
+            return 0;
         }
         Err(error) => {
             complain(&one_line(&error.to_string()));

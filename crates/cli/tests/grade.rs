@@ -143,8 +143,8 @@ fn a_folder_of_students_is_a_class() {
     write(at("class/.trash/photons.csv"), &list);
     let grades = grades(&[at("class")], &["--emitted", "60000"]);
     let expected = [
-        ("alice", "correct", "same files", "the photons are the same as those of"),
-        ("bob", "correct", "same files", "class/dave"),
+        ("alice", "correct", "same files", "the same, byte by byte, as that of"),
+        ("bob", "correct", "same files", "the photons are the same as those of"),
         ("carol", "unreadable", "readable", "neither a photon list nor a picture"),
         ("dave", "correct", "same files", "class/alice"),
         ("erin", "unreadable", "readable", "photons.csv.gz is packed (gzip): unpack it first"),

@@ -239,12 +239,12 @@ fn binary_ply() {
 #[test]
 fn rows_beyond_or_below_the_count_are_refused_with_both_counts() {
     let counted = |count: usize| ply().replacen("vertex 30", &format!("vertex {count}"), 1);
-    assert_refused(counted(0), &["after 0 photons", "30 more rows"]);
-    assert_refused(counted(10), &["after 10 photons", "20 more rows"]);
+    assert_refused(counted(0), &["after 0 photons", "found more: 30 rows"]);
+    assert_refused(counted(10), &["after 10 photons", "found more: 20 rows"]);
     assert_refused(counted(31), &["expected 31 photons, found 30"]);
     let mut bytes = binary("\n");
     bytes.push(0);
-    assert_refused(&bytes, &["after 30 photons", "1 more bytes"]);
+    assert_refused(&bytes, &["after 30 photons", "found more: 1 bytes"]);
     assert_refused(&bytes[..bytes.len() - 3], &["expected 30 photons, found 29"]);
     assert_refused(format!("31\n{}", rows(" ")), &["line 1", "expected 31 photons, found 30"]);
     let huge =

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use grading::intake::HandedIn;
 
-/// The longest name of a file, in bytes: systems have 255, and a number may follow.
-const LONGEST_NAME: usize = 200;
+/// The longest name of a file without number and extension, in bytes, of which systems take 255.
+const LONGEST_NAME: usize = 100;
 
 /// For each submission the name of its file: its own, without what systems do not take or what leads
 /// elsewhere, and with `extension`.

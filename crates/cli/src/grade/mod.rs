@@ -12,12 +12,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::error::{CliError, escaped, print};
+use super::error::{CliError, escaped, print_whole};
 use super::output::{self, protect, write};
 use super::values;
 use files::file_names;
 use grading::class::grade_one;
 use grading::gradescope;
+use grading::intake::contents::same_contents;
 use grading::intake::{Collected, Folders, HandedIn, collect};
 use grading::judge_list::Expectations;
 use grading::page::{Pages, index::index};
@@ -213,10 +214,24 @@ impl Class<'_> {
         let prints: Vec<_> = graded.iter().map(|one| one.fingerprint.as_ref()).collect();
         for (at, mut others) in twins(&prints).into_iter().enumerate() {
             others.retain(|other| !is_named_twice(&handed_in[at], &handed_in[*other]));
-            if let Some(note) = twin_note(&others, &graded) {
+            let list = |at: usize| handed_in[at].submission.list.clone();
+            let is_copy = |other: &usize| match (list(at), list(*other)) {
+                (Some(one), Some(other)) => same_contents(&[one, other]),
+                _ => false,
+            };
+            let (copies, others): (Vec<usize>, Vec<usize>) = others.into_iter().partition(is_copy);
+            let notes: Vec<String> = [
+                twin_note("the photon list is the same, byte by byte, as that", &copies, &graded),
+                twin_note("the photons are the same as those", &others, &graded),
+            ]
+            .into_iter()
+            .flatten()
+            .collect();
+            if !notes.is_empty() {
                 let kept = &mut graded[at];
-                let expected = "photons of the student's own";
-                kept.grade.findings.push(remark(SAME_FILES, expected, &note, ""));
+                let note =
+                    |note: &String| remark(SAME_FILES, "photons of the student's own", note, "");
+                kept.grade.findings.extend(notes.iter().map(note));
                 self.write_results(at, kept);
             }
         }
@@ -285,7 +300,7 @@ impl Class<'_> {
             }
             (Some(_), _) => Ok(()),
             (None, Some(path)) => write(path, &output),
-            (None, None) => print(&output),
+            (None, None) => print_whole(&output),
         }
     }
 }
@@ -307,14 +322,13 @@ fn is_named_twice(one: &HandedIn, other: &HandedIn) -> bool {
     path(one).is_some() && path(one) == path(other)
 }
 
-fn twin_note(others: &[usize], graded: &[Kept]) -> Option<String> {
+fn twin_note(what: &str, others: &[usize], graded: &[Kept]) -> Option<String> {
     const MOST_NAMED: usize = 5;
     let names = others.iter().take(MOST_NAMED).map(|at| graded[*at].grade.submission.clone());
     let names = names.collect::<Vec<_>>().join(", ");
     (!others.is_empty()).then(|| {
         format!(
-            "the photons are the same as those of {names}; two right programs with the same random \
-             numbers may store the same"
+            "{what} of {names}; two right programs with the same random numbers may write the same"
         )
     })
 }

@@ -1,7 +1,7 @@
 //! From the files and folders that a grader names to one submission a student.
 
 mod class;
-mod contents;
+pub mod contents;
 mod folder;
 pub mod kinds;
 

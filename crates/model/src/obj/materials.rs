@@ -69,6 +69,12 @@ impl Materials {
         Ok(())
     }
 
+    /// What is wrong with a material.
+    pub fn first_flaw(&self) -> Option<Flaw> {
+        let flaws = self.by_name.values().filter_map(|material| material.response.as_ref().err());
+        flaws.min_by_key(|flaw| (&flaw.path, flaw.line)).cloned()
+    }
+
     fn define(&mut self, name: &str, place: &Place) {
         if self.by_name.contains_key(name) {
             return;

@@ -243,6 +243,9 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library>
     fn finish(mut self) -> Result<Model, ModelError> {
         if self.model.triangles.is_empty() {
             let degenerate: usize = self.facets_of_mesh.iter().sum();
+            if let Some(flaw) = self.first_flaw().filter(|_| degenerate == 0) {
+                return Err(flaw.into());
+            }
             let found = match degenerate {
                 0 => "found none".to_owned(),
                 _ => format!("found only degenerate ones ({degenerate})"),
@@ -259,5 +262,16 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library>
             self.model.notes.push(self.place.flaw(message).to_string());
         }
         Ok(self.model)
+    }
+
+    /// What is wrong in a file without faces, which is hardly meant to have none.
+    fn first_flaw(&self) -> Option<Flaw> {
+        let of_vertices = self.vertices.iter().filter_map(|value| value.as_ref().err());
+        let of_normals = self.normals.iter().filter_map(|value| value.as_ref().err());
+        let flaw = of_vertices.chain(of_normals).min_by_key(|flaw| flaw.line);
+        let (name, line) = self.material.clone().unwrap_or_default();
+        let of_use = || self.materials.find(&name).err().filter(|_| line > 0);
+        let of_use = || Some(Flaw { path: self.place.path.clone(), line, message: of_use()? });
+        flaw.map(|flaw| (**flaw).clone()).or_else(of_use).or_else(|| self.materials.first_flaw())
     }
 }

@@ -56,24 +56,25 @@ pub(super) fn read(
         }
     }
     let count = vertex.count;
-    let more = match header.encoding {
+    let (more, what) = match header.encoding {
         Encoding::Ascii => {
             let mut more = 0_u64;
             while let Some((_, line)) = lines.next()? {
                 more += u64::from(!line.trim().is_empty());
             }
-            format!("{more} more rows")
+            (more, "rows")
         }
         Encoding::Binary { .. } => {
             let more = io::copy(&mut lines.input, &mut io::sink());
             let more = more.map_err(|error| ListError::unreadable(path, error))?;
-            format!("{more} more bytes ('merge' joins lists)")
+            (more, "bytes ('merge' joins lists)")
         }
     };
-    if more.starts_with("0 ") {
+    if more == 0 {
         return Ok(naming);
     }
-    let message = format!("expected the end of the file after {count} photons, found {more}");
+    let message =
+        format!("expected the end of the file after {count} photons, found more: {more} {what}");
     Err(ListError::malformed(path, message))
 }
 
