@@ -531,3 +531,53 @@ fn kill_leaves_each_file_whole_or_as_it_was() {
     run_line(line, &[&at("class"), &at("out")]).success();
     assert_eq!(fs::read_dir(at("out")).unwrap().count(), 4, "nothing unfinished is left");
 }
+
+#[test]
+fn pipes_are_refused_where_their_end_may_never_come() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = few(folder.path());
+    mkfifo(&at("pipe"));
+    for line in ["compare {} {}", "merge {} {} --out out.ply", "explore --submission {} --out {}"] {
+        fails(line, &[&at("pipe"), &list], &["pipe"]);
+    }
+    fails("compare {} {}", &[&list, &at("pipe")], &["pipe"]);
+}
+
+#[test]
+fn no_bounces_store_nothing() {
+    let folder = folder();
+    let some = write(folder.path().join("some.csv"), csv(1, 20_000));
+    let none = write(folder.path().join("none.csv"), "x,y,z\n");
+    let options = ["--max-bounces", "0"];
+    let [some, none] = &grades(&options, &[&some, &none])[..] else { panic!("two grades") };
+    assert_eq!((&some["verdict"], &some["score"]), (&"incorrect".into(), &2.0.into()));
+    assert_eq!((&none["verdict"], &none["score"]), (&"correct".into(), &4.0.into()));
+}
+
+#[test]
+fn pictures_cost_no_more_than_their_pixels() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    run_line("render --photons 60000 --quiet --out {}", &[&at("render")]).success();
+    let png = fs::read(at("render/assignment8.png")).unwrap();
+    // Three million chunks would fit into what is read; none of them is unpacked.
+    let chunk = |kind: &[u8; 4], contents: &[u8]| {
+        [&(contents.len() as u32).to_be_bytes(), &kind[..], contents, &[0; 4]].concat()
+    };
+    let profile = [b"p\0\0".as_slice(), &vec![0x78; 1 << 20]].concat();
+    let texts = chunk(b"zTXt", b"a\0\0x").repeat(100_000);
+    write(
+        at("many/assignment8.png"),
+        [&png[..33], &chunk(b"iCCP", &profile), &texts, &png[33..]].concat(),
+    );
+    write(at("few/assignment8.png"), &png);
+    let start = Instant::now();
+    let grade = &grades(&[], &[&at("many")])[0];
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    let few = &grades(&[], &[&at("few")])[0];
+    assert_eq!((&grade["verdict"], &grade["findings"]), (&few["verdict"], &few["findings"]));
+    // A chunk that claims to be longer than the file is broken, not endless.
+    write(at("cut/assignment8.png"), [&png[..33], &[0xff; 4], b"IDAT", &png[33..99]].concat());
+    assert!(remarks(&grades(&[], &[&at("cut")])[0]).contains("broken PNG"));
+}

@@ -31,6 +31,7 @@ pub mod judge_list;
 pub mod naming;
 pub mod number;
 pub mod observation;
+mod own;
 pub mod page;
 pub mod picture;
 pub mod places;

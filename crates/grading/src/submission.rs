@@ -8,6 +8,7 @@ use super::facts::FEW_EMITTED;
 use super::judge_list::{Expectations, Judgement, judge};
 use super::naming::Explanation;
 use super::observation::observe;
+use super::own;
 use super::picture::dots::find_dots;
 use super::picture::judge_picture;
 use super::picture::reading::read_picture;
@@ -15,7 +16,7 @@ use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
 use super::twins::Fingerprint;
-use super::verdict::{Finding, Grade, Verdict, Weight};
+use super::verdict::{Finding, Grade, SAME_FILES, Verdict, Weight};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
@@ -99,6 +100,9 @@ pub fn grade_at_most(
             let fingerprint = Fingerprint::of(&list.records);
             let mut graded = grade_list(submission, list, settings, expectations);
             graded.fingerprint = fingerprint;
+            if graded.grade.verdict == Verdict::Correct {
+                graded.grade.findings.extend(own(&graded, settings));
+            }
             let turned =
                 is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
             let guessed = notes.guessed.as_deref().filter(|_| !is_link(path));
@@ -158,6 +162,17 @@ pub fn grade_at_most(
 fn not_read(submission: &Submission, settings: &Settings, error: &std::io::Error) -> Graded {
     let reason = format!("it could not be read: {error}: try again");
     Graded { try_again: true, ..unreadable(submission, settings, &reason) }
+}
+
+/// A remark for the course, if this program's own list was handed in.
+fn own(graded: &Graded, settings: &Settings) -> Option<Finding> {
+    let (list, _) = graded.list.as_ref()?;
+    let seed = own::seed_of(&list.records, settings.seed)?;
+    let found = format!(
+        "the photons are those of this program with --seed {seed}, or some of them; a right program with \
+         its random numbers stores the same"
+    );
+    Some(remark(SAME_FILES, "photons of the student's own", &found, ""))
 }
 
 /// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
@@ -311,6 +326,9 @@ fn grade_list(
     if observation.records > 0 && finite == 0.0 {
         return unreadable(submission, settings, "no position in the list is a finite number");
     }
+    if expectations.signatures.max_bounces == 0 {
+        return without_bounces(submission, settings, observation.records);
+    }
     if observation.records == 0 {
         return no_photons(submission, settings);
     }
@@ -351,6 +369,33 @@ fn grade_list(
         findings: judgement.findings.clone(),
     };
     Graded { list: Some((list, judgement)), ..Graded::new(grade) }
+}
+
+/// The grade of a list of `stored` photons where none may bounce, and so none may be stored.
+fn without_bounces(submission: &Submission, settings: &Settings, stored: u64) -> Graded {
+    let is_right = stored == 0;
+    let finding = Finding {
+        check: "photons",
+        section: Some("Photon Storage"),
+        expected: "no photon: one is stored only after it has bounced".to_owned(),
+        found: format!("{stored} photons, where none may bounce"),
+        p_value: None,
+        passed: is_right,
+        weight: Weight::Fault,
+        advice:
+            "Insert a photon only where the size of 'path' is larger than 1, and trace no further \
+                 than the bounces that are left."
+                .into(),
+    };
+    let verdict = if is_right { Verdict::Correct } else { Verdict::Incorrect };
+    let grade = Grade {
+        stored: Some(stored),
+        score: settings.policy.score(verdict, None, false),
+        verdict,
+        findings: vec![finding],
+        ..unreadable(submission, settings, "").grade
+    };
+    Graded::new(grade)
 }
 
 fn no_photons(submission: &Submission, settings: &Settings) -> Graded {

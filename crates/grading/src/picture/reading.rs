@@ -7,7 +7,7 @@ use std::path::Path;
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder, Limits, RgbImage};
 
-use crate::intake::kinds::{Kind, START, kind};
+use crate::intake::kinds::{Kind, PNG, START, kind};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 /// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB. It
@@ -15,6 +15,9 @@ use photon_mapping::assignment8::{HEIGHT, WIDTH};
 const MOST_BYTES: u64 = 4 << 20;
 /// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the longest format.
 const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
+/// The chunks of a PNG file that make its pixels, and the bytes of a chunk besides its contents.
+const PIXEL_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
+const CHUNK_FRAME: usize = 12;
 /// What the decoder may allocate besides the picture.
 const MOST_MEMORY: u64 = 16 << 20;
 /// Reads the picture `path`, in bounded time and memory.
@@ -65,10 +68,11 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
              it were a screenshot or resized: {WANTED}"
         ));
     }
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
-    if decoder.is_apng().map_err(broken)? {
+    if chunks(bytes).any(|chunk| chunk.get(4..8) == Some(b"acTL")) {
         return Err(format!("it is animated: {WANTED}"));
     }
+    let bytes = &pixels_alone(bytes);
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
     if !decoder.color_type().has_color() {
         return Err(format!("it is grey, and dots are red: {WANTED}"));
     }
@@ -88,4 +92,26 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
         }
     }
     Ok(rgb)
+}
+
+/// The PNG file `bytes` without what does not change its pixels: colour profiles and texts may unpack
+/// to far more than they are.
+fn pixels_alone(bytes: &[u8]) -> Vec<u8> {
+    let kept = chunks(bytes).filter(|chunk| {
+        let kind = chunk.get(4..8).unwrap_or_default();
+        PIXEL_CHUNKS.iter().any(|known| kind == *known) || chunk.len() < CHUNK_FRAME
+    });
+    [&PNG[..]].into_iter().chain(kept).collect::<Vec<_>>().concat()
+}
+
+/// The chunks of the PNG file `bytes`, with length, kind and checksum; the last one may be cut.
+fn chunks(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut rest = bytes.get(PNG.len()..).unwrap_or_default();
+    std::iter::from_fn(move || {
+        let (length, _) = rest.split_first_chunk::<4>()?;
+        let length = u32::from_be_bytes(*length) as usize + CHUNK_FRAME;
+        let (chunk, after) = rest.split_at(length.min(rest.len()));
+        rest = after;
+        Some(chunk)
+    })
 }
