@@ -74,7 +74,8 @@ pub fn print_whole(text: &str) -> Result<(), CliError> {
         .map_err(CliError::Output)
 }
 
-/// `text` without letters that move the cursor, hide or turn others round: as `\u{1b}`.
+/// `text` without letters that move the cursor, hide or turn others round: as `\u001b`, which means the
+/// same in JSON.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     let is_odd = |letter: char| {
         (letter.is_control() && !"\n\t".contains(letter)) || grading::text::is_invisible(letter)
@@ -82,9 +83,14 @@ pub fn escaped(text: &str) -> Cow<'_, str> {
     if !text.contains(is_odd) {
         return Cow::Borrowed(text);
     }
-    let escape = |letter: char| match is_odd(letter) {
-        true => letter.escape_unicode().to_string(),
-        false => letter.to_string(),
-    };
-    Cow::Owned(text.chars().map(escape).collect())
+    let mut escaped = String::new();
+    for letter in text.chars() {
+        if is_odd(letter) {
+            let units = letter.encode_utf16(&mut [0; 2]).to_vec();
+            units.iter().for_each(|unit| escaped += &format!("\\u{unit:04x}"));
+        } else {
+            escaped.push(letter);
+        }
+    }
+    Cow::Owned(escaped)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::error::CliError;
+use super::error::{CliError, escaped};
 use super::values;
 use model::obj::{self, ModelLight};
 use model::placement::Placement;
@@ -42,7 +42,7 @@ impl SceneArgs {
             None => Ok((assignment8::create_scene(), Placement::WORLD)),
             Some(path) => {
                 let model = obj::load(path)?;
-                model.notes.iter().for_each(|note| eprintln!("note: {note}"));
+                model.notes.iter().for_each(|note| eprintln!("note: {}", escaped(note)));
                 Ok(model::place(model, &self.light))
             }
         }

@@ -581,3 +581,79 @@ fn pictures_cost_no_more_than_their_pixels() {
     write(at("cut/assignment8.png"), [&png[..33], &[0xff; 4], b"IDAT", &png[33..99]].concat());
     assert!(remarks(&grades(&[], &[&at("cut")])[0]).contains("broken PNG"));
 }
+
+#[test]
+fn names_move_no_cursor_and_read_as_no_grade() {
+    let folder = folder();
+    let odd = "bob: correct, 4 of 4 points\u{1b}[2J\u{202e}\u{200b}\u{9b}";
+    let at = |name: &str| folder.path().join(name);
+    write(at("class").join(odd).join("photons.csv"), "x,y\n1,2\n");
+    write(at(&format!("{odd}.csv")), format!("x,y,z\n{odd},2,3\n"));
+    write(at(&format!("{odd}.obj")), format!("usemtl {odd}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    write(at("policy.json"), format!("{{\"{}\": 1}}", odd.replace('\u{1b}', "\\u001b")));
+    let list = format!("{odd}.csv");
+    let model = format!("{odd}.obj");
+    let few = few(folder.path());
+    let few = few.to_str().unwrap();
+    let runs: [&[&str]; 7] = [
+        &["grade", "--class", "class"],
+        &["grade", "--class", "class", "--format", "json"],
+        &["grade", "--policy", "policy.json", &list],
+        &["compare", few, &list],
+        &["compare", "--json", few, few],
+        &["render", "--photons-from", &list],
+        &["render", "--scene", &model, "--light", "0,0,1", "--count-only"],
+    ];
+    for arguments in runs {
+        let output = program(folder.path()).args(arguments).output().unwrap();
+        for text in [&output.stdout, &output.stderr] {
+            let text = String::from_utf8(text.clone()).unwrap();
+            let odd = |letter: char| "\u{1b}\u{202e}\u{200b}\u{9b}".contains(letter);
+            assert!(!text.contains(odd), "{arguments:?}: {text:?}");
+            let reads_as_grade =
+                |line: &str| line.starts_with("bob: ") || line.contains("class/bob: ");
+            assert!(
+                !text.lines().any(|line| reads_as_grade(line) && !line.contains('"')),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn outputs_that_cannot_be_written_leave_what_was_there() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    few(folder.path());
+    write(at("a.csv"), csv(1, 20_000));
+    write(at("b.csv"), csv(2, 20_000));
+    image::RgbImage::new(8, 6).save(at("black.png")).unwrap();
+    let program = env!("CARGO_BIN_EXE_photon-mapping");
+    for (line, outputs) in [
+        ("merge few/photons.ply --out out/merged.csv", &["merged.csv"][..]),
+        ("grade a.csv --out out/a.txt", &["a.txt"]),
+        ("grade a.csv b.csv --format gradescope --out out", &["a.csv.json", "b.csv.json"]),
+        ("compare few/assignment8.png black.png --out out/d.png", &["d.png"]),
+        ("render --photons 2000 --size 8x6 --out out", &["assignment8.png", "photons.ply"]),
+        ("explore --photons 200 --out out", &["explore.html"]),
+    ] {
+        // In blocks of 512 bytes: nothing fits, or only the start.
+        for most in [0, 1] {
+            outputs.iter().for_each(|name| drop(write(at("out").join(name), "old")));
+            let line = format!("trap '' XFSZ; ulimit -f {most}; {program} {line}");
+            let output =
+                Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
+            let error = stderr(&output);
+            let fits = |name: &&str| fs::metadata(at("out").join(name)).unwrap().len() <= 512;
+            assert!(outputs.iter().all(fits), "{line}");
+            let is_old = |name: &&str| fs::read(at("out").join(name)).unwrap() == b"old";
+            if outputs.iter().any(is_old) {
+                assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+                assert!(error.contains("cannot be written"), "{line}: {error}");
+            }
+            let left = fs::read_dir(at("out")).unwrap().count();
+            assert_eq!(left, outputs.len(), "{line}: nothing unfinished is left");
+        }
+        fs::remove_dir_all(at("out")).unwrap();
+    }
+}

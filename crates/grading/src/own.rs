@@ -15,10 +15,10 @@ const SEEDS: u64 = 256;
 const EMITTED: u64 = 1000;
 /// So far apart is a photon that was moved a little, in each coordinate.
 const NEAR: f32 = 3e-3;
-/// Of a run's photons, this part must be there: also most subsets have it.
-const FOUND: f64 = 0.35;
-/// Where a run of the middle has this part, the list has photons everywhere.
-const EVERYWHERE: f64 = 0.2;
+/// Of a run's photons, this part must be there: also half of a list has it.
+const FOUND: f64 = 0.4;
+/// So many standard deviations more than what chance finds of any run: of 257 runs, the best has 3.5.
+const ABOVE_CHANCE: f64 = 6.0;
 
 /// Photons of this program's runs, by place.
 struct Own {
@@ -74,12 +74,13 @@ impl Own {
             found[*seed].0 += f64::from(u8::from(is_found));
             found[*seed].1 += 1.0;
         }
-        let mut parts: Vec<(f64, u64)> =
-            found.iter().zip(&self.seeds).map(|((found, all), seed)| (found / all, *seed)).collect();
-        parts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (best, seed) = *parts.last()?;
-        let usual = parts[parts.len() / 2].0;
-        (best >= FOUND && usual <= EVERYWHERE).then_some(seed)
+        let part = |(found, all): &(f64, f64)| found / all;
+        let mut order: Vec<usize> = (0..found.len()).collect();
+        order.sort_by(|a, b| part(&found[*a]).total_cmp(&part(&found[*b])));
+        let (best, usual) = (*order.last()?, part(&found[order[order.len() / 2]]));
+        let deviation = (usual * (1.0 - usual) / found[best].1).sqrt();
+        let least = FOUND.max(usual + ABOVE_CHANCE * deviation);
+        (part(&found[best]) >= least).then_some(self.seeds[best])
     }
 }
 

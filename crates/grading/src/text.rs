@@ -1,5 +1,7 @@
 //! A grade as people read it.
 
+use std::borrow::Cow;
+
 use super::verdict::{Finding, Grade, Verdict, Weight};
 
 /// `text` without what would move the cursor, end the line, hide or turn other letters round.
@@ -56,10 +58,16 @@ pub fn text(grade: &Grade, best: f64) -> String {
     text
 }
 
+/// `name` in quotes, where it could be read as a grade.
+fn named(name: &str) -> Cow<'_, str> {
+    if name.contains(": ") { Cow::Owned(format!("{name:?}")) } else { Cow::Borrowed(name) }
+}
+
 /// The verdict, and what it is about.
 pub fn heading(grade: &Grade, best: f64) -> String {
     let verdict = verdict_in_words(grade.verdict);
-    let mut text = format!("{}: {verdict}, {} of {best} points\n", grade.submission, grade.score);
+    let name = named(&grade.submission);
+    let mut text = format!("{name}: {verdict}, {} of {best} points\n", grade.score);
     if let Some(stored) = grade.stored {
         let emitted = match grade.emitted {
             Some(emitted) => format!("{emitted} sent out"),

@@ -8,6 +8,8 @@ use std::sync::{Mutex, MutexGuard};
 
 use tempfile::NamedTempFile;
 
+use crate::error::escaped;
+
 const PREFIX: &str = ".unfinished-";
 /// How many letters follow it.
 const RANDOM: usize = 6;
@@ -67,7 +69,8 @@ pub fn remove_stale(folder: &Path) {
         {
             let path = entry.path();
             if fs::remove_file(&path).is_ok() {
-                eprintln!("note: removed {}, which a killed run has left", path.display());
+                let path = path.display().to_string();
+                eprintln!("note: removed {}, which a killed run has left", escaped(&path));
             }
         }
     }
