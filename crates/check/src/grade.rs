@@ -64,7 +64,8 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
         misreading_title: faults().find(|fault| fault.name == misreading).map(|f| f.found.clone()),
         findings,
     };
-    Graded { grade, list: statistics.and_then(|graded| graded.list) }
+    let list = statistics.and_then(|graded| graded.list);
+    Graded { grade, list, fingerprint: None, try_again: false }
 }
 
 /// The findings of `grade` that come from the statistics of the list.

@@ -16,8 +16,8 @@ use photon_mapping::assignment8;
 use rayon::prelude::*;
 
 use super::error::{CliError, print};
-use super::grade::{file_names, json, write};
-use super::output::OutputFile;
+use super::grade::{file_names, json};
+use super::output::{OutputFile, write};
 use super::{progress, values};
 
 const CSV_HEADER: &str = "submission,verdict,score,misreadings,builds,emission,storage,scattering,\
@@ -187,13 +187,13 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
 
 /// A file for each submission in `folder`; for pages, one more that leads to them.
 fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Result<(), CliError> {
-    let names = file_names(all.iter().map(|checked| checked.report.submission.as_str()));
-    let files = || names.iter().map(|name| format!("{name}.{extension}"));
-    for (checked, file) in all.iter().zip(files()) {
+    let names = all.iter().map(|checked| checked.report.submission.as_str());
+    let files = file_names(names, extension);
+    for (checked, file) in all.iter().zip(&files) {
         write(&folder.join(file), &checked.output)?;
     }
     if extension == "html" {
-        let pages: Vec<_> = all.iter().map(|checked| &checked.grade).zip(files()).collect();
+        let pages: Vec<_> = all.iter().map(|checked| &checked.grade).zip(files).collect();
         write(&folder.join("index.html"), &index(&pages, best))?;
     }
     Ok(())

@@ -91,6 +91,7 @@ pub fn run(arguments: &CompareArgs) -> Result<u8, CliError> {
 
 fn is_picture(path: &Path) -> Result<bool, CliError> {
     let unreadable = |error| CliError::unreadable(path, error);
+    reader::refuse_pipe(path)?;
     let mut file = File::open(path).map_err(unreadable)?;
     // What a pipe has given once it does not give again.
     if !file.metadata().map_err(unreadable)?.is_file() {

@@ -1,5 +1,6 @@
 //! What the command line can fail with; each is one clear line.
 
+use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -56,11 +57,40 @@ impl CliError {
 /// # Errors
 /// When standard output cannot be written.
 pub fn print(text: &str) -> Result<(), CliError> {
+    match print_whole(text) {
+        Err(CliError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        printed => printed,
+    }
+}
+
+/// As [`print`], for what must not get lost in silence.
+///
+/// # Errors
+/// When standard output cannot be written, also because its reader has closed it.
+pub fn print_whole(text: &str) -> Result<(), CliError> {
     let mut output = io::stdout().lock();
-    io::Write::write_all(&mut output, text.as_bytes())
+    io::Write::write_all(&mut output, escaped(text).as_bytes())
         .and_then(|()| io::Write::flush(&mut output))
-        .or_else(|error| match error.kind() {
-            io::ErrorKind::BrokenPipe => Ok(()),
-            _ => Err(CliError::Output(error)),
-        })
+        .map_err(CliError::Output)
+}
+
+/// `text` without letters that move the cursor, hide or turn others round: as `\u001b`, which means the
+/// same in JSON.
+pub fn escaped(text: &str) -> Cow<'_, str> {
+    let is_odd = |letter: char| {
+        (letter.is_control() && !"\n\t".contains(letter)) || grading::text::is_invisible(letter)
+    };
+    if !text.contains(is_odd) {
+        return Cow::Borrowed(text);
+    }
+    let mut escaped = String::new();
+    for letter in text.chars() {
+        if is_odd(letter) {
+            let units = letter.encode_utf16(&mut [0; 2]).to_vec();
+            units.iter().for_each(|unit| escaped += &format!("\\u{unit:04x}"));
+        } else {
+            escaped.push(letter);
+        }
+    }
+    Cow::Owned(escaped)
 }

@@ -19,7 +19,7 @@ use variants::run::Run;
 
 use super::beside_expected::beside_expected;
 use super::error::{CliError, print};
-use super::output::OutputFile;
+use super::output::{self, OutputFile};
 use super::run_args::RunArgs;
 
 /// The name of the page.
@@ -97,7 +97,7 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         comparison: comparison.as_ref(),
     }
     .page();
-    let mut file = OutputFile::create(&arguments.out.join(PAGE))?;
+    let mut file = OutputFile::create(&output::folder(&arguments.out)?.join(PAGE))?;
     let written = file.file().write_all(page.as_bytes());
     written.map_err(|error| CliError::unwritable(file.path(), error))?;
     let path = file.path().display().to_string();

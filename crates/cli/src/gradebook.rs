@@ -97,7 +97,6 @@ impl GradebookArgs {
         for (at, (student, mut one)) in known.into_iter().enumerate() {
             if self.anonymous {
                 one.submission.name = format!("submission {}", at + 1);
-                one.twins.clear();
                 one.notes.clear();
             } else if let Some(student) = &student {
                 one.submission.name.clone_from(&student.name);
@@ -145,7 +144,6 @@ fn join(all: Vec<(Option<Student>, HandedIn)>) -> Vec<(Option<Student>, HandedIn
                 submission.list = submission.list.take().or(one.submission.list);
                 submission.picture = submission.picture.take().or(one.submission.picture);
                 other.notes.extend(one.notes);
-                other.twins.extend(one.twins);
             }
             None => joined.push((student, one)),
         }
@@ -168,8 +166,13 @@ fn earlier(path: &Path) -> Result<BTreeMap<String, Before>, CliError> {
 }
 
 impl Class {
+    /// Whether no name may be shown.
+    pub fn is_anonymous(&self) -> bool {
+        self.is_anonymous
+    }
+
     /// What people read after the grades: what changed, and who handed in nothing.
-    pub fn text(&self, grades: &[Grade]) -> String {
+    pub fn text(&self, grades: &[&Grade]) -> String {
         let mut text = String::new();
         let changed = grades.iter().filter_map(|grade| {
             let before = self.before.get(&grade.submission)?;
@@ -196,7 +199,7 @@ impl Class {
     }
 
     /// The grades as CSV: a row for each submission, and one for each student without any.
-    pub fn csv(&self, grades: &[Grade], score_of_nothing: f64) -> String {
+    pub fn csv(&self, grades: &[&Grade], score_of_nothing: f64) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let head = ["name", "id", "email", "score", "verdict", "sections", "misreading", "remarks"];
         let mut rows = vec![head.map(str::to_owned).to_vec()];

@@ -23,10 +23,14 @@ mod run_summary;
 mod shell;
 mod values;
 
+use std::ffi::OsString;
 use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{FromArgMatches, Parser, Subcommand};
+
+use error::escaped;
 
 /// The exit code of everything that could not be done.
 const FAILED: u8 = 2;
@@ -41,6 +45,9 @@ const VERSION: &str = concat!(
     env!("CARGO_PKG_VERSION_MINOR"),
     ")"
 );
+
+/// The options that name what is written.
+const OUTPUTS: [&str; 2] = ["--out", "--list"];
 
 #[derive(Debug, Parser)]
 #[command(
@@ -93,9 +100,17 @@ fn main() -> ExitCode {
 
 /// Runs the command line `arguments`, of which the first is the program's name, and gives the exit
 /// code.
-fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
-    let arguments = shell::quiet_after_verb(arguments.into_iter().collect());
-    let matches = examples::command().try_get_matches_from(arguments);
+fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = arguments.into_iter().collect();
+    if let Some(file) = options_that_are_files(&words).next() {
+        let file = file.to_string_lossy();
+        complain(&format!(
+            "error: '{file}' is an option, but also a file here: write -- before the names of files, or \
+             ./{file}"
+        ));
+        return FAILED;
+    }
+    let matches = examples::command().try_get_matches_from(shell::quiet_after_verb(words.clone()));
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) if !error.use_stderr() => {
@@ -109,6 +124,7 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         }
     };
     output::remove_unfinished_files_on_interrupt();
+    output::protect(inputs(&words));
     let result = match cli.command {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
@@ -134,9 +150,33 @@ fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
     }
 }
 
+/// Options for which there is a file of the same name: with `grade *`, a student would choose options.
+fn options_that_are_files(words: &[OsString]) -> impl Iterator<Item = &OsString> {
+    let options = words.iter().skip(1).take_while(|word| *word != "--");
+    let is_option = |word: &OsString| word.len() > 1 && word.to_string_lossy().starts_with('-');
+    options.filter(move |word| is_option(word) && Path::new(word).symlink_metadata().is_ok())
+}
+
+/// The words that may name files that are read: all but those behind options that name outputs.
+fn inputs(words: &[OsString]) -> impl Iterator<Item = PathBuf> {
+    let before = std::iter::once(None).chain(words.iter().map(Some));
+    let is_no_output = |option: &OsString| OUTPUTS.iter().all(|output| option != output);
+    let read = words.iter().zip(before).filter(move |(_, before)| before.is_none_or(is_no_output));
+    read.map(|(word, _)| {
+        let text = word.to_string_lossy();
+        match text.strip_prefix("--").and_then(|option| option.split_once('=')) {
+            Some((option, _)) if OUTPUTS.contains(&format!("--{option}").as_str()) => {
+                PathBuf::new()
+            }
+            Some((_, value)) => value.into(),
+            None => word.into(),
+        }
+    })
+}
+
 /// Prints `line` to standard error; where that cannot be written, the exit code alone must do.
 fn complain(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", escaped(line));
 }
 
 /// The error `text` of clap on one line: what is wrong, and what may have been meant.

@@ -78,6 +78,7 @@ fn no_list(path: &Path) -> Result<CliError, CliError> {
 
 fn starts_with(path: &Path, start: &[u8]) -> Result<bool, CliError> {
     let unreadable = |source| ListError::Unreadable { path: path.to_owned(), source };
+    reader::refuse_pipe(path)?;
     let mut first = Vec::new();
     let file = fs::File::open(path).map_err(unreadable)?;
     file.take(start.len() as u64).read_to_end(&mut first).map_err(unreadable)?;
@@ -193,5 +194,5 @@ fn summary(whole: &RunPart, tally: &Tally) -> Summary {
 }
 
 fn malformed(path: &Path, message: impl Into<String>) -> CliError {
-    ListError::Malformed { path: path.to_owned(), message: message.into() }.into()
+    ListError::malformed(path, message.into()).into()
 }

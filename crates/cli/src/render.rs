@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 
 use super::beside_expected::beside_expected;
 use super::error::CliError;
-use super::output::OutputFile;
+use super::output::{self, OutputFile};
 use super::progress;
 use super::run_args::RunArgs;
 use super::run_summary::{Seconds, Summary, print_summary};
@@ -113,7 +113,8 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
         Some(_) => 0..0,
         None => photons(arguments, &run)?,
     };
-    let mut picture_file = OutputFile::create(&arguments.out.join("assignment8.png"))?;
+    let mut picture_file =
+        OutputFile::create(&output::folder(&arguments.out)?.join("assignment8.png"))?;
     let (width, height) = arguments.size;
     let camera = run.placement.camera(assignment8::create_camera(width, height));
     let mut dots = Dots::new(camera, width, height);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::error::{CliError, print};
-use super::output::OutputFile;
+use super::output::{self, OutputFile};
 use super::progress;
 use report::plan::Plan;
 use report::{self, FILES};
@@ -40,7 +40,7 @@ pub fn run(arguments: &ReportArgs) -> Result<u8, CliError> {
     };
     let mut outputs = Vec::new();
     for name in FILES {
-        outputs.push((name, OutputFile::create(&arguments.out.join(name))?));
+        outputs.push((name, OutputFile::create(&output::folder(&arguments.out)?.join(name))?));
     }
     let bar = progress::bar(arguments.quiet, "photons", plan.photons());
     let files = report::run(&plan, &|photons| bar.inc(photons));

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::error::CliError;
+use super::error::{CliError, escaped};
 use super::values;
 use model::obj::{self, ModelLight};
 use model::placement::Placement;
@@ -40,7 +40,11 @@ impl SceneArgs {
     pub fn load(&self) -> Result<(Scene, Placement), CliError> {
         match &self.scene {
             None => Ok((assignment8::create_scene(), Placement::WORLD)),
-            Some(path) => Ok(model::place(obj::load(path)?, &self.light)),
+            Some(path) => {
+                let model = obj::load(path)?;
+                model.notes.iter().for_each(|note| eprintln!("note: {}", escaped(note)));
+                Ok(model::place(model, &self.light))
+            }
         }
     }
 }

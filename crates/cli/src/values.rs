@@ -20,7 +20,7 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
 /// `A..B` as the photons from A up to, but not with, B.
 pub fn range(text: &str) -> Result<Range<u64>, String> {
     text.split_once("..")
-        .and_then(|(start, end)| Some(start.parse().ok()?..end.parse().ok()?))
+        .and_then(|(start, end)| Some(number(start)?..number(end)?))
         .filter(|range: &Range<u64>| range.start < range.end)
         .ok_or_else(|| "expected A..B with whole numbers A < B".to_owned())
 }
@@ -48,15 +48,26 @@ pub fn light(text: &str) -> Result<ModelLight, String> {
     }
 }
 
-/// A whole number from `low` to `high`.
+/// A whole number from `low` to `high`, which may be written as `1e6`.
 pub fn whole<T>(low: T, high: T) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync
 where
     T: std::str::FromStr + PartialOrd + std::fmt::Display + Copy + Send + Sync,
 {
     move |text: &str| {
-        text.parse()
-            .ok()
+        number(text)
             .filter(|number| (low..=high).contains(number))
             .ok_or_else(|| format!("expected a whole number from {low} to {high}"))
     }
+}
+
+/// `text` as a whole number; `1e6` is one, too.
+fn number<T: std::str::FromStr>(text: &str) -> Option<T> {
+    /// All whole numbers up to this one are exact in f64.
+    const LARGEST: f64 = 9_007_199_254_740_992.0;
+    let of_float = || {
+        let number: f64 = text.parse().ok()?;
+        let is_whole = number.fract() == 0.0 && number.abs() <= LARGEST;
+        is_whole.then(|| format!("{number:.0}").parse().ok())?
+    };
+    text.parse().ok().or_else(of_float)
 }

@@ -8,14 +8,16 @@ use super::facts::FEW_EMITTED;
 use super::judge_list::{Expectations, Judgement, judge};
 use super::naming::Explanation;
 use super::observation::observe;
+use super::own;
 use super::picture::dots::find_dots;
 use super::picture::judge_picture;
 use super::picture::reading::read_picture;
 use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
-use super::verdict::{Finding, Grade, Verdict, Weight};
-use photon_list::error::ListError;
+use super::twins::Fingerprint;
+use super::verdict::{Finding, Grade, SAME_FILES, Verdict, Weight};
+use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
 
@@ -60,35 +62,71 @@ pub struct Graded {
     pub grade: Grade,
     /// The list, if it could be read, with what was concluded from it.
     pub list: Option<(PhotonList, Judgement)>,
+    /// What tells its photons from others'.
+    pub fingerprint: Option<Fingerprint>,
+    /// Whether a file could not be read, which may be over soon.
+    pub try_again: bool,
+}
+
+impl Graded {
+    fn new(grade: Grade) -> Self {
+        Self { grade, list: None, fingerprint: None, try_again: false }
+    }
 }
 
 /// Grades `submission`. Whatever is wrong with its files is part of the grade.
 pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expectations) -> Graded {
+    grade_at_most(submission, settings, expectations, MOST_RECORDS)
+        .expect("the limit is the largest")
+}
+
+/// As [`grade`], if the list has no more than `most` records, or even [`MOST_RECORDS`].
+pub fn grade_at_most(
+    submission: &Submission,
+    settings: &Settings,
+    expectations: &Expectations,
+    most: usize,
+) -> Option<Graded> {
     let Some(path) = &submission.list else {
-        return match &submission.picture {
+        return Some(match &submission.picture {
             Some(picture) => grade_picture(submission, picture, settings, expectations),
             None => unreadable(submission, settings, "there is no photon list, and no picture"),
-        };
+        });
     };
-    let mut graded = match reader::load_at_most(path, MOST_RECORDS) {
-        Ok((mut list, guessed)) => {
+    let mut graded = match reader::load_at_most(path, most) {
+        Err(ListError::TooLong { most, .. }) if most < MOST_RECORDS => return None,
+        Ok((mut list, notes)) => {
             let is_turned = axes::turn_to_world(&mut list, &expectations.places);
+            let fingerprint = Fingerprint::of(&list.records);
             let mut graded = grade_list(submission, list, settings, expectations);
+            graded.fingerprint = fingerprint;
+            if graded.grade.verdict == Verdict::Correct {
+                graded.grade.findings.extend(own(&graded, settings));
+            }
             let turned =
                 is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
-            let notes = guessed.as_deref().into_iter().chain(turned);
-            graded.grade.findings.extend(notes.map(|note| {
+            let guessed = notes.guessed.as_deref().filter(|_| !is_link(path));
+            graded.grade.findings.extend(guessed.into_iter().chain(turned).map(|note| {
                 let expected = "columns x, y and z, in world space, with commas between them";
                 let advice = "Write the position as the framework has it, under these names.";
                 remark("format", expected, note, advice)
             }));
+            graded.grade.findings.extend(notes.left_out.iter().map(|reason| {
+                let expected = "numbers in every column that is judged";
+                let advice = "Write this column as the dump header does, or leave it out.";
+                remark("columns", expected, &told(path, reason), advice)
+            }));
             graded
         }
         // The name of the submission says already which file it is.
-        Err(ListError::Malformed { message, .. }) => unreadable(submission, settings, &message),
-        Err(ListError::Unreadable { source, .. }) => {
-            unreadable(submission, settings, &format!("it cannot be read: {source}"))
+        Err(ListError::Malformed { reason, .. }) => {
+            unreadable(submission, settings, &told(path, &reason))
         }
+        Err(ListError::TooLong { most, .. }) => {
+            let reason = format!("expected a list of at most {most} records, found a longer one");
+            unreadable(submission, settings, &reason)
+        }
+        Err(ListError::Unreadable { source, .. }) => not_read(submission, settings, &source),
     };
     if let (Some(picture), Verdict::Unreadable) = (&submission.picture, graded.grade.verdict) {
         let of_list = graded.grade.findings.remove(0);
@@ -100,7 +138,8 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
         };
         let of_list = Finding { check: "photon list", weight, ..of_list };
         of_picture.grade.findings.push(of_list);
-        return of_picture;
+        of_picture.try_again &= graded.try_again;
+        return Some(of_picture);
     }
     if let Some(picture) = &submission.picture {
         let emitted = settings.emitted.map(|emitted| emitted as f64);
@@ -116,7 +155,33 @@ pub fn grade(submission: &Submission, settings: &Settings, expectations: &Expect
             graded.grade.findings.extend(apart(list, picture, expectations));
         }
     }
-    graded
+    Some(graded)
+}
+
+/// The grade of a submission of which a file could not be read because of `error`.
+fn not_read(submission: &Submission, settings: &Settings, error: &std::io::Error) -> Graded {
+    let reason = format!("it could not be read: {error}: try again");
+    Graded { try_again: true, ..unreadable(submission, settings, &reason) }
+}
+
+/// A remark for the course, if this program's own list was handed in.
+fn own(graded: &Graded, settings: &Settings) -> Option<Finding> {
+    let (list, _) = graded.list.as_ref()?;
+    let seed = own::seed_of(&list.records, settings.seed)?;
+    let found = format!(
+        "the photons are those of this program with --seed {seed}, or some of them; a right program with \
+         its random numbers stores the same"
+    );
+    Some(remark(SAME_FILES, "photons of the student's own", &found, ""))
+}
+
+/// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
+fn told(path: &Path, reason: &Reason) -> String {
+    if is_link(path) { reason.message.clone() } else { reason.to_string() }
+}
+
+fn is_link(path: &Path) -> bool {
+    path.symlink_metadata().is_ok_and(|about| about.is_symlink())
 }
 
 fn grade_picture(
@@ -125,6 +190,9 @@ fn grade_picture(
     settings: &Settings,
     expectations: &Expectations,
 ) -> Graded {
+    if let Err(error) = std::fs::File::open(picture) {
+        return not_read(submission, settings, &error);
+    }
     let emitted = settings.emitted.map(|emitted| emitted as f64);
     let judgement = match judge_picture(picture, emitted, expectations.pictures()) {
         Ok(judgement) => judgement,
@@ -151,7 +219,7 @@ fn grade_picture(
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
     };
-    Graded { grade, list: None }
+    Graded::new(grade)
 }
 
 /// Whether photons straight from the light are part of what explains a submission.
@@ -226,7 +294,7 @@ pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) ->
         misreading_title: None,
         findings: vec![not_readable(reason)],
     };
-    Graded { grade, list: None }
+    Graded::new(grade)
 }
 
 fn not_readable(reason: &str) -> Finding {
@@ -258,6 +326,9 @@ pub fn grade_list(
     let finite = observation.records as f64 - observation.counts.not_finite;
     if observation.records > 0 && finite == 0.0 {
         return unreadable(submission, settings, "no position in the list is a finite number");
+    }
+    if expectations.signatures.max_bounces == 0 {
+        return without_bounces(submission, settings, observation.records);
     }
     if observation.records == 0 {
         return no_photons(submission, settings);
@@ -298,7 +369,34 @@ pub fn grade_list(
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
     };
-    Graded { grade, list: Some((list, judgement)) }
+    Graded { list: Some((list, judgement)), ..Graded::new(grade) }
+}
+
+/// The grade of a list of `stored` photons where none may bounce, and so none may be stored.
+fn without_bounces(submission: &Submission, settings: &Settings, stored: u64) -> Graded {
+    let is_right = stored == 0;
+    let finding = Finding {
+        check: "photons",
+        section: Some("Photon Storage"),
+        expected: "no photon: one is stored only after it has bounced".to_owned(),
+        found: format!("{stored} photons, where none may bounce"),
+        p_value: None,
+        passed: is_right,
+        weight: Weight::Fault,
+        advice:
+            "Insert a photon only where the size of 'path' is larger than 1, and trace no further \
+                 than the bounces that are left."
+                .into(),
+    };
+    let verdict = if is_right { Verdict::Correct } else { Verdict::Incorrect };
+    let grade = Grade {
+        stored: Some(stored),
+        score: settings.policy.score(verdict, None, false),
+        verdict,
+        findings: vec![finding],
+        ..unreadable(submission, settings, "").grade
+    };
+    Graded::new(grade)
 }
 
 fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
@@ -325,5 +423,5 @@ fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
         misreading_title: None,
         findings: vec![finding],
     };
-    Graded { grade, list: None }
+    Graded::new(grade)
 }

@@ -1,10 +1,35 @@
 //! A grade as people read it.
 
+use std::borrow::Cow;
+
 use super::verdict::{Finding, Grade, Verdict, Weight};
 
-/// `text` without what would move the cursor or end the line.
+/// `text` without what would move the cursor, end the line, hide or turn other letters round.
 pub fn printable(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
+    let is_odd = |letter: char| letter.is_control() || is_invisible(letter);
+    text.chars().map(|letter| if is_odd(letter) { '\u{fffd}' } else { letter }).collect()
+}
+
+/// Whether `letter` has no shape of its own: it separates lines, has no width, or sets the direction of
+/// text.
+pub fn is_invisible(letter: char) -> bool {
+    matches!(
+        letter,
+        '\u{ad}'
+            | '\u{34f}'
+            | '\u{61c}'
+            | '\u{115f}'
+            | '\u{1160}'
+            | '\u{180b}'..='\u{180f}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{3164}'
+            | '\u{feff}'
+            | '\u{ffa0}'
+            | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e007f}'
+    )
 }
 
 /// What `verdict` is called.
@@ -33,10 +58,16 @@ pub fn text(grade: &Grade, best: f64) -> String {
     text
 }
 
+/// `name` in quotes, where it could be read as a grade.
+fn named(name: &str) -> Cow<'_, str> {
+    if name.contains(": ") { Cow::Owned(format!("{name:?}")) } else { Cow::Borrowed(name) }
+}
+
 /// The verdict, and what it is about.
 pub fn heading(grade: &Grade, best: f64) -> String {
     let verdict = verdict_in_words(grade.verdict);
-    let mut text = format!("{}: {verdict}, {} of {best} points\n", grade.submission, grade.score);
+    let name = named(&grade.submission);
+    let mut text = format!("{name}: {verdict}, {} of {best} points\n", grade.score);
     if let Some(stored) = grade.stored {
         let emitted = match grade.emitted {
             Some(emitted) => format!("{emitted} sent out"),

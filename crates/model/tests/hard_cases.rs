@@ -46,18 +46,37 @@ fn degenerate_triangles_alone_are_refused() {
 }
 
 #[test]
-fn not_a_number_infinite_or_1e38_is_refused() {
-    for wrong in ["nan", "NaN", "inf", "-inf", "infinity", "1e38", "-1e38", "1e999"] {
-        for (line, lines) in [
-            (3, format!("v {wrong} 0 0")),
-            (4, format!("\nv 0 0 {wrong}")),
-            (3, format!("vn 0 {wrong} 0")),
-        ] {
-            let error = model(&lines, "0.5 0.5 0.5").unwrap_err();
-            let place = format!("model:{line}: ");
+fn not_a_number_infinite_or_1e38_is_refused_where_a_face_uses_it() {
+    let all = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n";
+    let face = "f 1//1 2//1 3//1\n";
+    let spellings = [
+        "nan",
+        "NaN",
+        "inf",
+        "-inf",
+        "infinity",
+        "1e38",
+        "-1e38",
+        "1e999",
+        "1.#INF",
+        "-1.#IND00",
+        "1.#QNAN0",
+        "1.#SNAN",
+        "-nan(ind)",
+        "1,5",
+    ];
+    for wrong in spellings {
+        for (line, number, keyword) in [(3, "v 1 0 0", "v 1 0"), (6, "vn 0 0 1", "vn 0 0")] {
+            let (wrong_line, at) = (format!("{keyword} {wrong}"), line + usize::from(line == 3));
+            let lines = all.replace(number, &wrong_line);
+            let error = model(&format!("{lines}{face}"), "0.5 0.5 0.5").unwrap_err();
+            let place = format!("model:{at}: ");
             assert!(error.starts_with(&place) && error.contains(&format!("'{wrong}'")), "{error}");
+            // What no face uses may be anything.
+            let unused = format!("{all}{wrong_line}\n{face}");
+            assert_eq!(model(&unused, "1 1 1"), model(&format!("{all}{face}"), "1 1 1"));
         }
-        let error = model(CORNERS, &format!("0.5 {wrong} 0.5")).unwrap_err();
+        let error = model(&format!("{all}{face}"), &format!("0.5 {wrong} 0.5")).unwrap_err();
         assert!(error.starts_with("materials:2: ") && error.contains(wrong), "{error}");
     }
 }

@@ -1,19 +1,21 @@
 //! Lists as comma-separated values, for everything that is not made for point clouds.
+//!
+//! This is our own reader because the crates for CSV do not read the dialects of other programs:
+//! white space between values, names of columns in a comment, counts of rows, decimal commas.
 
 use std::fmt::Write as _;
-use std::io::{BufRead, Read};
+use std::io::BufRead;
 use std::path::Path;
 
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
-use super::dialect::{Dialect, Naming};
-use super::error::ListError;
-use super::record::{ABSENT, Value, set};
+use super::dialect::{Dialect, Naming, commented, with_point};
+use super::error::{At, ListError};
+use super::record::{ABSENT, Rows, Value};
+use super::text::Lines;
 
-/// A line longer than this is no row of a photon list.
-const LONGEST_LINE: u64 = 65_536;
-/// A file with more lines of nothing is no list.
-const MOST_EMPTY_LINES: u64 = 1_000_000;
+/// In so many comments the names of columns are looked for: that takes longer than reading them.
+const MOST_COMMENTS: usize = 1000;
 
 /// The first line: the names of the columns.
 pub fn header() -> String {
@@ -31,106 +33,124 @@ pub fn push_line(text: &mut String, record: &PhotonRecord) {
     writeln!(text, "{photon},{bounce},{surface}").expect("a string takes everything");
 }
 
-/// Reads the list in `input`, the contents of the file `path`: also with other separators than commas,
-/// and without names of columns where there are just three.
-pub(super) fn read(
-    mut input: impl BufRead,
-    path: &Path,
-    mut on_record: impl FnMut(PhotonRecord) -> Result<(), ListError>,
-) -> Result<Naming, ListError> {
-    let start = input.fill_buf().map_err(|error| ListError::unreadable(path, error))?;
-    if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") {
-        let message = "expected UTF-8 text, found UTF-16, as '>' of PowerShell writes it";
-        return Err(ListError::malformed(path, message));
-    }
-    let mut line = String::new();
-    let mut number = 0;
-    let mut next_line = |line: &mut String| {
-        line.clear();
-        number += 1;
-        let length =
-            input.by_ref().take(LONGEST_LINE).read_line(line).map_err(|error| {
-                match error.kind() {
-                    std::io::ErrorKind::InvalidData => {
-                        ListError::malformed(path, format!("line {number}: expected text"))
-                    }
-                    _ => ListError::unreadable(path, error),
-                }
-            })?;
-        if length as u64 == LONGEST_LINE {
-            let message = format!("line {number}: expected at most {LONGEST_LINE} bytes in a line");
-            return Err(ListError::malformed(path, message));
-        }
-        Ok((length > 0).then_some(number))
-    };
-    let mut first = next_line(&mut line)?;
-    if first.is_none() {
-        return Err(ListError::malformed(path, "the file is empty: it has no bytes at all"));
-    }
-    while let Some(number) = first.filter(|_| is_before_the_list(&line)) {
-        if number > MOST_EMPTY_LINES {
-            let message = format!("line {number}: expected fewer lines of comment");
-            return Err(ListError::malformed(path, message));
-        }
-        first = next_line(&mut line)?;
-    }
-    let Some(first) = first else {
-        return Err(ListError::malformed(path, "expected a photon list, found only comments"));
-    };
-    let dialect = Dialect::of(&line)
-        .map_err(|message| ListError::malformed(path, format!("line {first}: {message}")))?;
-    let places = &dialect.naming.places;
-    let mut empty = 0;
-    let mut at = if dialect.has_header { next_line(&mut line)? } else { Some(first) };
-    while let Some(number) = at {
-        let row = line.trim_start_matches('\u{feff}').trim();
-        if row.is_empty() {
-            empty += 1;
-            if empty > MOST_EMPTY_LINES {
-                let message = format!("line {number}: expected fewer empty lines");
-                return Err(ListError::malformed(path, message));
+/// What a list in text starts with.
+pub(super) struct Start {
+    dialect: Dialect,
+    /// The first row, where no names precede it.
+    first: Option<(u64, String)>,
+    /// How many rows a line says there are, and which line.
+    count: Option<(u64, u64)>,
+}
+
+/// Reads up to the first row from line `next` on: also with other separators than commas, and without names of columns
+/// where there are just three.
+pub(super) fn start(
+    lines: &mut Lines<impl BufRead>,
+    mut next: Option<(u64, String)>,
+) -> Result<Start, ListError> {
+    let path = lines.path;
+    let mut of_comment = None;
+    let mut comments = 0;
+    let mut count = None;
+    let is_empty = next.is_none();
+    while let Some((number, line)) = next {
+        let row = line.trim();
+        if let Some(comment) = commented(row) {
+            comments += 1;
+            if comments <= MOST_COMMENTS {
+                let dialect = Dialect::of(comment.trim()).ok();
+                of_comment = dialect.filter(|dialect| dialect.has_header).or(of_comment);
             }
-        } else {
-            on_record(record(row, &dialect, places).map_err(|message| {
-                ListError::malformed(path, format!("line {number}: {message}"))
-            })?)?;
+        } else if let (None, Ok(rows)) = (count, row.parse()) {
+            count = Some((rows, number));
+        } else if !row.is_empty() && !tells_separator(row) {
+            let (dialect, first) = match (Dialect::of(row), of_comment) {
+                (Ok(dialect), _) if dialect.has_header => (dialect, None),
+                (_, Some(dialect)) | (Ok(dialect), None) => (dialect, Some((number, line))),
+                (Err(message), None) => return Err(ListError::in_line(path, number, message)),
+            };
+            return Ok(Start { dialect, first, count });
         }
-        at = next_line(&mut line)?;
+        next = lines.next()?.map(|(number, line)| (number, line.into_owned()));
     }
-    Ok(dialect.naming)
+    let dialect = of_comment.ok_or_else(|| match is_empty {
+        true => ListError::malformed(path, "the file is empty: it has nothing but white space"),
+        false => ListError::malformed(path, "expected a photon list, found only comments"),
+    })?;
+    Ok(Start { dialect, first: None, count })
 }
 
-/// Whether a list could start like `start`, which may end within a line.
-pub(super) fn is_start(start: &str) -> bool {
-    let first = start.lines().find(|line| !is_before_the_list(line));
-    first.is_some_and(|line| Dialect::of(line).is_ok())
+/// Whether `line` tells Excel what is between values.
+fn tells_separator(line: &str) -> bool {
+    let line = line.trim_matches('"').as_bytes();
+    line.get(..4).is_some_and(|start| start.eq_ignore_ascii_case(b"sep="))
 }
 
-/// Whether `line` is a comment, or the line that tells Excel what is between values: `#` may also come before the
-/// names of the columns.
-fn is_before_the_list(line: &str) -> bool {
-    let line = line.trim_start_matches('\u{feff}').trim().trim_matches('"');
-    line.to_ascii_lowercase().starts_with("sep=")
-        || (line.starts_with('#') && Dialect::of(line).is_err())
+/// Reads the rows behind `start`.
+pub(super) fn read(
+    lines: &mut Lines<impl BufRead>,
+    start: Start,
+    rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
+) -> Result<Naming, ListError> {
+    let path = lines.path;
+    let Start { dialect, first, mut count } = start;
+    let mut records = 0;
+    let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
+        let line = line.trim();
+        if line.is_empty() || commented(line).is_some() {
+            return Ok(true);
+        }
+        if let (0, None, Ok(rows)) = (records, count, line.parse()) {
+            count = Some((rows, number));
+            return Ok(true);
+        }
+        let Some(record) = record(path, line, number, &dialect, rows)? else { return Ok(true) };
+        records += 1;
+        (rows.on_record)(record)
+    };
+    let mut wants_more = match first {
+        Some((number, line)) => row(number, &line)?,
+        None => true,
+    };
+    while wants_more {
+        let Some((number, line)) = lines.next()? else { break };
+        wants_more = row(number, &line)?;
+    }
+    match count {
+        Some((expected, line)) if wants_more && expected != records => {
+            let message = format!("expected {expected} photons, found {records}");
+            Err(ListError::in_line(path, line, message))
+        }
+        _ => Ok(dialect.naming),
+    }
 }
 
-fn record(row: &str, dialect: &Dialect, places: &[Option<usize>]) -> Result<PhotonRecord, String> {
+/// The record in `row`; none where all values are empty.
+fn record(
+    path: &Path,
+    row: &str,
+    number: u64,
+    dialect: &Dialect,
+    rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
+) -> Result<Option<PhotonRecord>, ListError> {
     let mut record = ABSENT;
     let mut cells = dialect.cells(row);
+    let places = &dialect.naming.places;
+    let other_number = |found: usize| {
+        let message = format!("expected {} values, found {found}", places.len());
+        ListError::in_line(path, number, message)
+    };
     for (seen, place) in places.iter().enumerate() {
-        let text = cells
-            .next()
-            .ok_or_else(|| format!("expected {} values, found {seen}", places.len()))?;
-        if let Some(place) = *place {
-            set(&mut record, place, Value::Text(&dialect.with_point(text))).ok_or_else(|| {
-                let name = COLUMNS[place];
-                let found = text.chars().take(40).collect::<String>();
-                format!("expected a number for '{name}', found '{found}'")
-            })?;
+        let text = cells.next().ok_or_else(|| other_number(seen))?;
+        let Some(place) = *place else { continue };
+        if text.is_empty() && dialect.cells(row).all(str::is_empty) {
+            return Ok(None);
         }
+        rows.set(&mut record, place, Value::Text(&with_point(text)), At::Line(number))?;
     }
-    match cells.count() {
-        0 => Ok(record),
-        more => Err(format!("expected {} values, found {}", places.len(), places.len() + more)),
+    // A separator at the end of a row is not followed by a value.
+    match cells.enumerate().filter(|(_, text)| !text.is_empty()).last() {
+        None => Ok(Some(record)),
+        Some((last, _)) => Err(other_number(places.len() + last + 1)),
     }
 }

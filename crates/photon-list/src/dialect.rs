@@ -4,14 +4,24 @@ use std::borrow::Cow;
 
 use photon_mapping::photon_list::COLUMNS;
 
+use super::error::start;
 use super::record::{Columns, Value};
 
 /// How other programs name the vectors of a photon: in front of a coordinate or a channel.
 const VECTORS: [(&[&str], [&str; 3]); 3] = [
-    (&["position", "pos"], ["x", "y", "z"]),
+    (
+        &["position", "pos", "points", "point", "coords", "coord", "location", "vertex", "p"],
+        ["x", "y", "z"],
+    ),
     (&["intensity"], ["r", "g", "b"]),
     (&["tolight", "tolightray", "tolightraydirection"], ["x", "y", "z"]),
 ];
+
+/// No name of a column is longer.
+const LONGEST_NAME: usize = 64;
+
+/// How comments start, which may hold the names of the columns: NumPy, CloudCompare, MATLAB.
+const COMMENTS: [&str; 3] = ["#", "//", "%"];
 
 /// Which column each of a file's is.
 #[derive(Debug)]
@@ -37,28 +47,31 @@ pub(super) struct Dialect {
 
 impl Naming {
     /// Which columns a file has whose own are called `names`: by our names, else by the same ones in
-    /// capitals, else by those of the assignment's C++. `Err` says what is missing or double.
+    /// capitals, else by those of other programs. `Err` says what is missing or double.
     pub fn of(names: &[&str]) -> Result<Self, String> {
+        // The columns that could be each of ours, and how well they are called so.
+        let mut best: [(u8, Vec<usize>); COLUMNS.len()] = Default::default();
+        for (at, name) in names.iter().enumerate() {
+            let Some((place, level)) = place(name) else { continue };
+            let (of_best, columns) = &mut best[place];
+            if columns.is_empty() || level < *of_best {
+                (*of_best, *columns) = (level, vec![at]);
+            } else if level == *of_best {
+                columns.push(at);
+            }
+        }
         let mut places = vec![None; names.len()];
         let mut guessed = Vec::new();
-        for (place, column) in COLUMNS.iter().enumerate() {
-            let levels: [&dyn Fn(&str) -> bool; 3] =
-                [&|name| name == *column, &|name| name.eq_ignore_ascii_case(column), &|name| {
-                    of_a_vector(name) == Some(place)
-                }];
-            let called = |level: &&dyn Fn(&str) -> bool| -> Vec<usize> {
-                (0..names.len()).filter(|at| level(names[*at])).collect()
-            };
-            let found = levels.iter().map(called).find(|found| !found.is_empty());
-            match found.unwrap_or_default().as_slice() {
+        for (place, (column, (level, found))) in COLUMNS.iter().zip(best).enumerate() {
+            match found.as_slice() {
                 [] if place < 3 => {
                     return Err(format!("expected the columns x, y and z, found no '{column}'"));
                 }
                 [] => {}
                 [at] => {
                     places[*at] = Some(place);
-                    if names[*at] != *column {
-                        guessed.push(format!("'{}' for {column}", names[*at]));
+                    if level > 0 {
+                        guessed.push(format!("'{}' for {column}", start(names[*at])));
                     }
                 }
                 _ => return Err(format!("expected each column once, found '{column}' twice")),
@@ -69,11 +82,34 @@ impl Naming {
     }
 }
 
+/// The place in [`COLUMNS`] of the column `name`; the second number is lower, the better it fits.
+fn place(name: &str) -> Option<(usize, u8)> {
+    if name.len() > LONGEST_NAME {
+        return None;
+    }
+    if let Some(place) = COLUMNS.iter().position(|column| name == *column) {
+        return Some((place, 0));
+    }
+    let name = without_unit(name);
+    let same = COLUMNS.iter().position(|column| name.eq_ignore_ascii_case(column));
+    same.map(|place| (place, 1)).or_else(|| Some((of_a_vector(name)?, 2)))
+}
+
+/// `x` for `x (m)` and `x [mm]`; what has an index in its brackets keeps them.
+fn without_unit(name: &str) -> &str {
+    let unit = name.strip_suffix([')', ']']).and_then(|name| name.rsplit_once(['(', '[']));
+    let is_index = |unit: &str| matches!(unit, "x" | "y" | "z" | "r" | "g" | "b" | "0" | "1" | "2");
+    match unit {
+        Some((name, unit)) if !is_index(&unit.to_ascii_lowercase()) => name.trim_end(),
+        _ => name,
+    }
+}
+
 /// The place in [`COLUMNS`] of what `position.x`, `intensity[0]` or `toLightRay.direction.z` names.
 fn of_a_vector(name: &str) -> Option<usize> {
     let name = name.to_ascii_lowercase();
     let name: String =
-        name.trim_start_matches("photon").chars().filter(|c| !"._[]- ".contains(*c)).collect();
+        name.trim_start_matches("photon").chars().filter(|c| !":._[]()- ".contains(*c)).collect();
     VECTORS.iter().enumerate().find_map(|(vector, (stems, letters))| {
         let mut stems = stems.iter();
         let rest = stems.find_map(|stem| name.strip_prefix(stem).filter(|rest| rest.len() == 1))?;
@@ -84,15 +120,32 @@ fn of_a_vector(name: &str) -> Option<usize> {
     })
 }
 
+/// `line` without what starts a comment, if it is one.
+pub(super) fn commented(line: &str) -> Option<&str> {
+    COMMENTS.iter().find_map(|mark| line.strip_prefix(mark))
+}
+
 impl Dialect {
     /// The dialect of a list with the first line `line`. `Err` says what was expected.
     pub fn of(line: &str) -> Result<Self, String> {
-        // As NumPy writes the names of columns.
-        let line = line.trim_start_matches('\u{feff}').trim().trim_start_matches('#').trim();
-        // A comma may also be part of a number.
-        let separator = [';', '\t', ','].into_iter().find(|separator| line.contains(*separator));
-        let first: Vec<&str> = cells(line, separator).collect();
-        let is_number = |text: &&str| Value::Text(&with_point(text, separator)).float().is_some();
+        // A comma may also be part of a number, and anything part of a name.
+        let separators = [';', '\t', ','].into_iter().filter(|separator| line.contains(*separator));
+        let mut wrong = None;
+        for separator in separators.map(Some).chain([None]) {
+            match Self::separated(line, separator) {
+                Ok(dialect) => return Ok(dialect),
+                Err(message) => wrong = wrong.or(Some(message)),
+            }
+        }
+        Err(wrong.expect("white space at least separates"))
+    }
+
+    fn separated(line: &str, separator: Option<char>) -> Result<Self, String> {
+        let mut first: Vec<&str> = cells(line, separator).collect();
+        while first.last().is_some_and(|name| name.is_empty()) {
+            first.pop();
+        }
+        let is_number = |text: &&str| Value::Text(&with_point(text)).float().is_some();
         let has_header = !first.iter().all(is_number);
         let mut naming = match first.len() {
             _ if has_header => Naming::of(&first)?,
@@ -119,32 +172,51 @@ impl Dialect {
         Ok(Self { separator, naming, has_header })
     }
 
-    /// `text` with a decimal point, where it may have a decimal comma.
-    pub fn with_point<'row>(&self, text: &'row str) -> Cow<'row, str> {
-        with_point(text, self.separator)
-    }
-
     /// The values of `row`.
     pub fn cells<'row>(&self, row: &'row str) -> impl Iterator<Item = &'row str> {
         cells(row, self.separator)
     }
 }
 
-fn with_point(text: &str, separator: Option<char>) -> Cow<'_, str> {
-    if separator == Some(',') || !text.contains(',') {
-        Cow::Borrowed(text)
-    } else {
-        Cow::Owned(text.replacen(',', ".", 1))
+/// `text` with a decimal point, where it may have a decimal comma: between commas only what is
+/// quoted has one.
+pub(super) fn with_point(text: &str) -> Cow<'_, str> {
+    match text.contains(',') {
+        false => Cow::Borrowed(text),
+        true => Cow::Owned(text.replacen(',', ".", 1)),
     }
 }
 
+/// The values of `row`, without white space and quotes around them. Any amount of white space is one
+/// separator.
 fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
-    let is_between = move |letter: char| match separator {
+    let row = row.trim();
+    // Some spreadsheets quote whole rows.
+    let inner = row.strip_prefix('"').and_then(|row| row.strip_suffix('"'));
+    let mut rest = Some(inner.filter(|inner| !inner.contains('"')).unwrap_or(row));
+    let ends = move |letter: char| match separator {
         Some(separator) => letter == separator,
         None => letter.is_whitespace(),
     };
-    // Any amount of white space is one separator.
-    row.split(is_between)
-        .filter(move |text| separator.is_some() || !text.is_empty())
-        .map(|text| text.trim().trim_matches('"'))
+    std::iter::from_fn(move || {
+        let row = rest?;
+        let row = if separator.is_none() { row.trim_start() } else { row };
+        if row.is_empty() && separator.is_none() {
+            return None;
+        }
+        // A separator within quotes separates nothing.
+        let quoted = row.trim_start_matches(' ').strip_prefix('"');
+        let closing = quoted.and_then(|quoted| Some(row.len() - quoted.len() + quoted.find('"')?));
+        let from = closing.unwrap_or_default();
+        let (cell, after) = match row[from..].find(ends) {
+            None => (row, None),
+            Some(end) => {
+                let end = from + end;
+                let width = row[end..].chars().next().map_or(0, char::len_utf8);
+                (&row[..end], Some(&row[end + width..]))
+            }
+        };
+        rest = after;
+        Some(cell.trim().trim_matches('"'))
+    })
 }

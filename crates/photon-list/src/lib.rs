@@ -9,4 +9,5 @@ pub mod ply;
 pub mod reader;
 pub mod record;
 pub mod run;
+mod text;
 pub mod writer;

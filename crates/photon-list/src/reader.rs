@@ -1,20 +1,27 @@
 //! Reading lists, whoever wrote them.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::fs::{self, File};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
-use photon_mapping::photon_list::PhotonRecord;
+use glam::Vec3;
+use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
+use super::csv::{self, Start};
 use super::dialect::Naming;
-use super::error::ListError;
-use super::record::Columns;
-use super::{csv, ply};
+use super::error::{ListError, Reason};
+use super::ply::{self, Header};
+use super::record::{Columns, Rows};
+use super::text::{Lines, decoded};
 
 /// A list of five million records, in as many digits as floats can have, is shorter than this.
 const MOST_BYTES: u64 = 1 << 30;
 /// So much of a file is looked at to see whether it is a list.
-const LONGEST_START: u64 = 4096;
+const LONGEST_START: u64 = 65_536;
+/// Memory is taken for at least so many records at once.
+const LEAST_RESERVED: usize = 1024;
+/// The name of standard input.
+const STANDARD_INPUT: &str = "-";
 
 /// A list in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +33,27 @@ pub struct PhotonList {
     pub records: Vec<PhotonRecord>,
 }
 
-/// Reads the list `path` into memory.
+/// What is to be said about how a list is written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Notes {
+    /// What had to be guessed.
+    pub guessed: Option<String>,
+    /// Why a column was left out, for each that was.
+    pub left_out: Vec<Reason>,
+}
+
+/// What a file looks like from its start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// No list.
+    Other,
+    /// Three columns, but too few rows, too far away, or the corners of faces.
+    Unlikely,
+    /// A list of photons.
+    List,
+}
+
+/// Reads the list `path` into memory; `-` is standard input.
 ///
 /// # Errors
 /// When the file cannot be read or is not a list.
@@ -37,13 +64,14 @@ pub fn load(path: &Path) -> Result<PhotonList, ListError> {
 }
 
 /// Reads the list `path` into memory if it is a file of no more than `most` records, in bounded time and
-/// memory whatever it holds; also gives what had to be guessed about it.
+/// memory whatever it holds. Columns besides the position that cannot be read are left out; the notes
+/// say so.
 ///
 /// # Errors
 /// When the file cannot be read, is not a list, or is too long.
-pub fn load_at_most(path: &Path, most: usize) -> Result<(PhotonList, Option<String>), ListError> {
+pub fn load_at_most(path: &Path, most: usize) -> Result<(PhotonList, Notes), ListError> {
     // To open a pipe would be to wait for its other end.
-    let about = std::fs::metadata(path).map_err(|error| ListError::unreadable(path, error))?;
+    let about = fs::metadata(path).map_err(|error| ListError::unreadable(path, error))?;
     if !about.is_file() {
         return Err(ListError::malformed(path, "expected a file, found a folder, pipe or device"));
     }
@@ -52,59 +80,134 @@ pub fn load_at_most(path: &Path, most: usize) -> Result<(PhotonList, Option<Stri
         let message = format!("expected a list of at most {most} MiB, found {found}");
         return Err(ListError::malformed(path, message));
     }
-    let mut records = Vec::new();
-    let naming = read_until(path, MOST_BYTES, |record| {
+    let mut records: Vec<PhotonRecord> = Vec::new();
+    let mut rows = Rows::new(path, false, |record| {
         if records.len() == most {
-            return Err(ListError::malformed(path, format!("expected at most {most} records")));
+            return Err(ListError::TooLong { path: path.to_owned(), most });
+        }
+        if records.len() == records.capacity() {
+            // Twice as much, as vectors grow, is a lot for long lists.
+            records.reserve_exact(LEAST_RESERVED.max(records.len() / 4));
         }
         records.push(record);
-        Ok(())
-    })?;
-    Ok((PhotonList { columns: naming.columns, records }, naming.note))
+        Ok(true)
+    });
+    let naming = read_rows(open(path, MOST_BYTES)?, &mut rows)?;
+    let mut columns = naming.columns;
+    let mut left_out = Vec::new();
+    for (place, error) in rows.left_out.into_iter().enumerate() {
+        let Some(ListError::Malformed { reason, .. }) = error else { continue };
+        let message = format!("the column '{}' is left out: {}", COLUMNS[place], reason.message);
+        left_out.push(Reason { message, ..reason });
+        columns.forget(place, &mut records);
+    }
+    Ok((PhotonList { columns, records }, Notes { guessed: naming.note, left_out }))
 }
 
-/// Whether the file `path` starts like a list.
+/// What the file `path` looks like from its start.
 ///
 /// # Errors
 /// When the file cannot be read.
-pub fn starts_like_a_list(path: &Path) -> io::Result<bool> {
-    let mut start = Vec::new();
-    File::open(path)?.take(LONGEST_START).read_to_end(&mut start)?;
-    // It may end within a letter.
-    let text = start.utf8_chunks().next().map_or("", |chunk| chunk.valid());
-    Ok(is_ply(&start) || csv::is_start(text))
+pub fn look(path: &Path) -> io::Result<Look> {
+    /// A list beside a picture has more rows than what people note in a few lines.
+    const FEWEST: usize = 20;
+    /// The handout's scene is within 2 of the origin.
+    const FARTHEST: Vec3 = Vec3::splat(10.0);
+    let input = match open(path, LONGEST_START) {
+        Ok(input) => input,
+        Err(ListError::Unreadable { source, .. }) => return Err(source),
+        Err(_) => return Ok(Look::Other),
+    };
+    let is_mesh = matches!(&input, Input::Ply(_, header) if header.is_mesh());
+    let (mut seen, mut is_near) = (0, false);
+    let mut rows = Rows::new(path, false, |record: PhotonRecord| {
+        seen += 1;
+        is_near |= !record.position.abs().cmpgt(FARTHEST).any();
+        Ok(seen < FEWEST)
+    });
+    // Where the start ends within a row, that is wrong.
+    let has_columns = read_rows(input, &mut rows).is_ok();
+    Ok(match seen >= FEWEST && is_near && !is_mesh {
+        true => Look::List,
+        false if seen > 0 || has_columns => Look::Unlikely,
+        false => Look::Other,
+    })
 }
 
-/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record.
-/// It may have any of the columns of [`photon_mapping::photon_list::COLUMNS`], in any order, if x, y and z are
+/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record; `-`
+/// is standard input. It may have any of the columns of [`COLUMNS`], in any order, if x, y and z are
 /// among them; other columns are passed over.
 ///
 /// # Errors
 /// When the file cannot be read or is not a list.
 pub fn read(path: &Path, mut on_record: impl FnMut(PhotonRecord)) -> Result<Columns, ListError> {
-    let naming = read_until(path, u64::MAX, |record| {
+    let mut rows = Rows::new(path, true, |record| {
         on_record(record);
-        Ok(())
-    })?;
-    Ok(naming.columns)
+        Ok(true)
+    });
+    Ok(read_rows(open(path, u64::MAX)?, &mut rows)?.columns)
 }
 
-/// As [`read`], up to the first error of `on_record`, or byte `most`.
-fn read_until(
-    path: &Path,
-    most: u64,
-    on_record: impl FnMut(PhotonRecord) -> Result<(), ListError>,
+fn read_rows(
+    input: Input<'_>,
+    rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
 ) -> Result<Naming, ListError> {
-    let unreadable = |error| ListError::unreadable(path, error);
-    let file = File::open(path).map_err(unreadable)?.take(most);
-    let mut input = BufReader::with_capacity(1 << 20, file);
-    if is_ply(input.fill_buf().map_err(unreadable)?) {
-        ply::read(input, path, on_record)
-    } else {
-        csv::read(input, path, on_record)
+    match input {
+        Input::Ply(mut lines, header) => ply::read(&mut lines, &header, rows),
+        Input::Text(mut lines, start) => csv::read(&mut lines, start, rows),
     }
 }
 
-fn is_ply(start: &[u8]) -> bool {
-    start.starts_with(b"ply\n") || start.starts_with(b"ply\r\n")
+type InputLines<'path> = Lines<'path, BufReader<Box<dyn Read>>>;
+
+/// A list up to its first row.
+pub(super) enum Input<'path> {
+    Ply(InputLines<'path>, Header),
+    Text(InputLines<'path>, Start),
+}
+
+/// Opens the list `path`, of which at most `most` bytes are read.
+pub(super) fn open(path: &Path, most: u64) -> Result<Input<'_>, ListError> {
+    let unreadable = |error| ListError::unreadable(path, error);
+    let file: Box<dyn Read> = if path == Path::new(STANDARD_INPUT) {
+        Box::new(io::stdin())
+    } else {
+        refuse_pipe(path)?;
+        Box::new(File::open(path).map_err(unreadable)?)
+    };
+    let input = decoded(file.take(most)).map_err(unreadable)?;
+    let mut lines = Lines::new(input, path);
+    let mut first = None;
+    // Editors and consoles put empty lines before a list.
+    while let Some((number, line)) = lines.next()? {
+        if !line.trim().is_empty() {
+            first = Some((number, line.into_owned()));
+            break;
+        }
+    }
+    if first.as_ref().is_some_and(|(_, line)| ply::is_magic(line)) {
+        let header = Header::read(&mut lines)?;
+        return Ok(Input::Ply(lines, header));
+    }
+    let start = csv::start(&mut lines, first)?;
+    Ok(Input::Text(lines, start))
+}
+
+/// Refuses a pipe with a name, whose other end may never come; a shell's own are in `/dev` or `/proc`.
+///
+/// # Errors
+/// When `path` is such a pipe.
+pub fn refuse_pipe(path: &Path) -> Result<(), ListError> {
+    #[cfg(unix)]
+    if let Ok(about) = fs::metadata(path)
+        && std::os::unix::fs::FileTypeExt::is_fifo(&about.file_type())
+        && !path.starts_with("/dev")
+        && !path.starts_with("/proc")
+    {
+        return Err(ListError::malformed(
+            path,
+            "expected a file, found a pipe: use standard input",
+        ));
+    }
+    Ok(())
 }

@@ -1,5 +1,7 @@
 //! The few formulas of the report. All means are over independent runs.
 
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 /// Fewer photons than this expected in a cell, and its error is no normal one: a few photons more
 /// or less decide it. Such cells have no interval and no part in a slope.
 pub const FEWEST: f64 = 20.0;
@@ -120,16 +122,10 @@ pub fn most_per_million(tries: u64) -> f64 {
     3e6 / tries as f64
 }
 
-/// 95 % of Student's law with `freedom` degrees of it lie within this many standard deviations
-/// (Abramowitz and Stegun 26.7.5).
+/// 95 % of Student's law with `freedom` degrees of it lie within this many standard deviations.
 fn student95(freedom: usize) -> f64 {
-    let (z, f) = (1.959_963_985_f64, freedom as f64);
-    let terms = [
-        (z.powi(3) + z) / 4.0,
-        (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0,
-        (3.0 * z.powi(7) + 19.0 * z.powi(5) + 17.0 * z.powi(3) - 15.0 * z) / 384.0,
-    ];
-    terms.iter().rev().fold(0.0, |sum, term| (sum + term) / f) + z
+    let law = StudentsT::new(0.0, 1.0, freedom as f64).expect("there is at least one degree");
+    law.inverse_cdf(0.975)
 }
 
 /// The `fraction`-quantile of `sorted`, which is not empty.
@@ -170,7 +166,8 @@ mod tests {
 
     #[test]
     fn students_law() {
-        for (freedom, known) in [(31, 2.039_513), (15, 2.131_450)] {
+        for (freedom, known) in [(1, 12.706_205), (2, 4.302_653), (15, 2.131_450), (31, 2.039_513)]
+        {
             assert!((student95(freedom) - known).abs() < 1e-4, "{freedom}");
         }
     }

@@ -1,13 +1,14 @@
 //! The list of a class's pages.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use maud::{PreEscaped, html};
+use sha2::{Digest, Sha256};
 
-use super::{class_of, document};
+use super::{STYLE, class_of, document};
 use crate::text::verdict_in_words;
 use crate::verdict::Grade;
 
-/// As for pages, but for the one script.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 /// Sorts the table by the column whose head is touched; again, the other way.
 const SCRIPT: &str = include_str!("index.js");
 
@@ -35,5 +36,16 @@ pub fn index(pages: &[(&Grade, String)], best: f64) -> String {
         }
         script { (PreEscaped(SCRIPT)) }
     };
-    document("Grades", POLICY, &body)
+    // As for pages, but for the one script, and nothing that is written into an element.
+    let policy = format!(
+        "default-src 'none'; style-src 'sha256-{}'; script-src 'sha256-{}'",
+        hash(STYLE),
+        hash(SCRIPT)
+    );
+    document("Grades", &policy, &body)
+}
+
+/// The hash by which a policy names `source`.
+fn hash(source: &str) -> String {
+    STANDARD.encode(Sha256::digest(source))
 }

@@ -7,49 +7,19 @@ use std::path::Path;
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder, Limits, RgbImage};
 
+use crate::intake::kinds::{Kind, PNG, START, kind};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
-/// How every PNG file starts.
-pub const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB. It
 /// bounds what a decoder has to unpack, too.
 const MOST_BYTES: u64 = 4 << 20;
 /// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the longest format.
 const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
+/// The chunks of a PNG file that make its pixels, and the bytes of a chunk besides its contents.
+const PIXEL_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
+const CHUNK_FRAME: usize = 12;
 /// What the decoder may allocate besides the picture.
 const MOST_MEMORY: u64 = 16 << 20;
-/// What other pictures start with, and what they are.
-const OTHERS: [(&[u8], &str); 7] = [
-    (b"\xff\xd8\xff", "JPEG"),
-    (b"GIF8", "GIF"),
-    (b"BM", "BMP"),
-    (b"II*\0", "TIFF"),
-    (b"MM\0*", "TIFF"),
-    (b"RIFF", "WebP"),
-    (b"%PDF", "PDF"),
-];
-
-/// The kind of picture that a file is by its first bytes, whatever its name says.
-pub fn kind(start: &[u8]) -> Option<&'static str> {
-    if start.starts_with(&PNG) {
-        return Some("PNG");
-    }
-    // A list may start with the letters of BMP, but goes on with text.
-    let is_text = start.iter().all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace());
-    let other = OTHERS.iter().find(|(magic, _)| start.starts_with(magic));
-    other.filter(|_| !is_text).map(|(_, name)| *name)
-}
-
-/// The first bytes of the regular file `path`; nothing for what cannot be read, or only once.
-pub fn start_of(path: &Path) -> Option<Vec<u8>> {
-    if !std::fs::metadata(path).ok()?.is_file() {
-        return None;
-    }
-    let mut start = Vec::new();
-    File::open(path).ok()?.take(16).read_to_end(&mut start).ok()?;
-    Some(start)
-}
-
 /// Reads the picture `path`, in bounded time and memory.
 ///
 /// # Errors
@@ -67,16 +37,18 @@ pub fn read_picture(path: &Path) -> Result<RgbImage, String> {
         let most = MOST_BYTES >> 20;
         return Err(format!("it has more than {most} MB, more than such a picture can need"));
     }
-    match kind(&bytes[..bytes.len().min(16)]) {
-        Some("PNG") => {}
-        Some(name) => return Err(format!("it is a {name} file{}: {WANTED}", blurs(name))),
-        None => return Err("it is not a picture".to_owned()),
+    match kind(&bytes[..bytes.len().min(START)], path) {
+        Some(Kind::Picture(name)) if name == "PNG" => {}
+        Some(Kind::Picture(name) | Kind::Document(name)) => {
+            return Err(format!("{name}, not PNG{}: {WANTED}", blurs(&name)));
+        }
+        Some(Kind::Packed(_)) | None => return Err("it is not a picture".to_owned()),
     }
     decode(&bytes)
 }
 
 /// What a student is asked for.
-pub const WANTED: &str = "hand in the PNG that the program itself wrote";
+pub const WANTED: &str = "hand in the PNG that the framework writes";
 
 fn blurs(name: &str) -> &'static str {
     if name == "JPEG" { ", whose compression smears dots" } else { "" }
@@ -96,10 +68,11 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
              it were a screenshot or resized: {WANTED}"
         ));
     }
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
-    if decoder.is_apng().map_err(broken)? {
+    if chunks(bytes).any(|chunk| chunk.get(4..8) == Some(b"acTL")) {
         return Err(format!("it is animated: {WANTED}"));
     }
+    let bytes = &pixels_alone(bytes);
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
     if !decoder.color_type().has_color() {
         return Err(format!("it is grey, and dots are red: {WANTED}"));
     }
@@ -119,4 +92,26 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
         }
     }
     Ok(rgb)
+}
+
+/// The PNG file `bytes` without what does not change its pixels: colour profiles and texts may unpack
+/// to far more than they are.
+fn pixels_alone(bytes: &[u8]) -> Vec<u8> {
+    let kept = chunks(bytes).filter(|chunk| {
+        let kind = chunk.get(4..8).unwrap_or_default();
+        PIXEL_CHUNKS.iter().any(|known| kind == *known) || chunk.len() < CHUNK_FRAME
+    });
+    [&PNG[..]].into_iter().chain(kept).collect::<Vec<_>>().concat()
+}
+
+/// The chunks of the PNG file `bytes`, with length, kind and checksum; the last one may be cut.
+fn chunks(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut rest = bytes.get(PNG.len()..).unwrap_or_default();
+    std::iter::from_fn(move || {
+        let (length, _) = rest.split_first_chunk::<4>()?;
+        let length = u32::from_be_bytes(*length) as usize + CHUNK_FRAME;
+        let (chunk, after) = rest.split_at(length.min(rest.len()));
+        rest = after;
+        Some(chunk)
+    })
 }

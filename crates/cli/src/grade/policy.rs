@@ -1,0 +1,43 @@
+//! A course's own scores.
+
+use std::path::Path;
+
+use crate::error::CliError;
+use grading::policy::Policy;
+use variants::hypotheses::misreadings;
+
+/// The policy in the file `path`, or the handout's.
+///
+/// # Errors
+/// When the file cannot be read, or is no policy.
+pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
+    let Some(path) = path else {
+        return Ok(Policy::default());
+    };
+    let wrong = |message: String| {
+        CliError::Argument(format!("{}: expected a policy: {message}", path.display()))
+    };
+    let text = std::fs::read_to_string(path).map_err(|error| CliError::unreadable(path, error))?;
+    // Without this, an array would be taken for the scores in their order.
+    let object: serde_json::Map<String, serde_json::Value> =
+        serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+    let policy: Policy =
+        serde_json::from_value(object.into()).map_err(|error| wrong(error.to_string()))?;
+    if let Some((name, score)) = policy.odd_score() {
+        let best = policy.correct;
+        return Err(wrong(format!(
+            "'{name}' is {score}, which is not from 0 to 'correct', {best}"
+        )));
+    }
+    let mut known: Vec<&str> = misreadings().iter().map(|hypothesis| hypothesis.id).collect();
+    known.push("no-offset");
+    known.sort_unstable();
+    known.dedup();
+    match policy.misreadings.keys().find(|id| !known.contains(&id.as_str())) {
+        Some(id) => {
+            let known = known.join(", ");
+            Err(wrong(format!("no misreading is called '{id}'; there are {known}")))
+        }
+        None => Ok(policy),
+    }
+}

@@ -1,0 +1,214 @@
+//! The one place that writes files. A plain file appears whole or not at all: it is written beside its
+//! place, then renamed. Devices, pipes and what a shell has opened are written to at the end.
+
+mod interrupt;
+mod unfinished;
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use tempfile::NamedTempFile;
+
+use super::error::CliError;
+pub use interrupt::remove_unfinished_files_on_interrupt;
+
+/// Files that are read, which no output may replace.
+static INPUTS: Mutex<Vec<Identity>> = Mutex::new(Vec::new());
+
+/// What is the same for all names of a file.
+#[cfg(unix)]
+type Identity = (u64, u64);
+#[cfg(not(unix))]
+type Identity = PathBuf;
+
+/// What the names of files end in that a folder is hardly called like.
+const FILE_EXTENSIONS: [&str; 9] = ["csv", "htm", "html", "json", "md", "obj", "ply", "png", "txt"];
+
+/// From now on no output may replace a file of `paths`.
+pub fn protect<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {
+    let files = paths.into_iter().filter(|path| path.as_ref().is_file());
+    let files: Vec<Identity> = files.filter_map(|path| identity(path.as_ref())).collect();
+    INPUTS.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(files);
+}
+
+/// The folder `path` for several files, which is made when the first of them is.
+///
+/// # Errors
+/// When it is a file, or has the name of one.
+pub fn folder(path: &Path) -> Result<&Path, CliError> {
+    let expected = |found: &str| {
+        let path = path.display();
+        let advice = "write --out FOLDER, or --out FOLDER/ for a new one";
+        CliError::Argument(format!("--out {path}: expected a folder, found {found}: {advice}"))
+    };
+    if path.is_dir() || path.to_string_lossy().ends_with(std::path::is_separator) {
+        return Ok(path);
+    }
+    if path.symlink_metadata().is_ok() {
+        return Err(expected("a file"));
+    }
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match FILE_EXTENSIONS.iter().any(|known| extension == *known) {
+        true => Err(expected("the name of a file")),
+        false => Ok(path),
+    }
+}
+
+/// Writes `contents` to the file `path`.
+///
+/// # Errors
+/// When it cannot be written; what stood there before is then still there.
+pub fn write(path: &Path, contents: &str) -> Result<(), CliError> {
+    let mut file = OutputFile::create(path)?;
+    let written = file.file().write_all(contents.as_bytes());
+    written.map_err(|error| CliError::unwritable(path, error))?;
+    file.persist()
+}
+
+/// A file that is being written.
+pub struct OutputFile {
+    path: PathBuf,
+    place: Place,
+}
+
+/// Where the bytes go.
+enum Place {
+    /// Into a file beside `target`, which it then replaces.
+    Beside { file: NamedTempFile, target: PathBuf },
+    /// Into a file without a name, then through what stands at the path.
+    Through(File),
+}
+
+impl OutputFile {
+    /// Starts the file `path`, whose folder is made if need be.
+    ///
+    /// # Errors
+    /// When the folder cannot be made or written to, or `path` cannot be replaced.
+    pub fn create(path: &Path) -> Result<Self, CliError> {
+        let unwritable = |error| CliError::unwritable(path, error);
+        let place = match fs::metadata(path) {
+            Ok(about) if about.is_dir() => {
+                return Err(unwritable(io::ErrorKind::IsADirectory.into()));
+            }
+            Ok(about) if !about.is_file() || is_of_system(path) => {
+                Place::Through(tempfile::tempfile().map_err(unwritable)?)
+            }
+            Ok(about) => {
+                refuse_input(path)?;
+                if about.permissions().readonly() {
+                    let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
+                    return Err(unwritable(error));
+                }
+                // Whoever may not write to the file may not replace it.
+                OpenOptions::new().write(true).open(path).map_err(unwritable)?;
+                let target = fs::canonicalize(path).map_err(unwritable)?;
+                let file = beside(&target)?;
+                keep_owner(file.as_file(), &about);
+                file.as_file().set_permissions(about.permissions()).map_err(unwritable)?;
+                Place::Beside { file, target }
+            }
+            Err(_) => {
+                let target = link_target(path).map_err(unwritable)?;
+                Place::Beside { file: beside(&target)?, target }
+            }
+        };
+        Ok(Self { path: path.to_owned(), place })
+    }
+
+    /// Where the file will stand.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is written to.
+    pub fn file(&mut self) -> &mut File {
+        match &mut self.place {
+            Place::Beside { file, .. } => file.as_file_mut(),
+            Place::Through(file) => file,
+        }
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// When it cannot be renamed or written; what stood in its place is then still there.
+    pub fn persist(self) -> Result<(), CliError> {
+        let Self { path, place } = self;
+        let written = match place {
+            Place::Beside { file, target } => {
+                file.persist(target).map(drop).map_err(|error| error.error)
+            }
+            Place::Through(mut file) => file.rewind().and_then(|()| {
+                let mut output = OpenOptions::new().write(true).open(&path)?;
+                io::copy(&mut file, &mut output)?;
+                output.flush()
+            }),
+        };
+        written.map_err(|error| CliError::unwritable(&path, error))
+    }
+}
+
+/// Whether `path` is one of the names that the system gives to what is open.
+fn is_of_system(path: &Path) -> bool {
+    path.starts_with("/dev") || path.starts_with("/proc")
+}
+
+fn refuse_input(path: &Path) -> Result<(), CliError> {
+    let inputs = INPUTS.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    match identity(path).is_some_and(|output| inputs.contains(&output)) {
+        false => Ok(()),
+        true => {
+            let path = path.display();
+            let message = format!("--out {path}: expected another file, found one that is read");
+            Err(CliError::Argument(message))
+        }
+    }
+}
+
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt as _;
+    fs::metadata(path).ok().map(|about| (about.dev(), about.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<Identity> {
+    fs::canonicalize(path).ok()
+}
+
+/// Where a link at `path` leads that does not exist yet; else `path` itself.
+fn link_target(path: &Path) -> io::Result<PathBuf> {
+    const MOST_LINKS: usize = 40;
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&target) {
+            Ok(next) => target = folder_of(&target).join(next),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(io::Error::other("expected a file, found a link to itself"))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+}
+
+/// Starts a file in the folder of `target`, which is made if need be.
+fn beside(target: &Path) -> Result<NamedTempFile, CliError> {
+    let folder = folder_of(target);
+    fs::create_dir_all(folder).map_err(|error| CliError::unwritable(folder, error))?;
+    unfinished::remove_stale(folder);
+    unfinished::start(folder).map_err(|error| CliError::unwritable(target, error))
+}
+
+/// Gives `file` the owner of the one it replaces, where the system allows that.
+#[cfg(unix)]
+fn keep_owner(file: &File, about: &fs::Metadata) {
+    use std::os::unix::fs::MetadataExt as _;
+    let _ = std::os::unix::fs::fchown(file, Some(about.uid()), Some(about.gid()));
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &fs::Metadata) {}

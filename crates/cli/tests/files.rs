@@ -1,0 +1,659 @@
+//! What is written where, and what a class of attackers can do: nothing.
+#![cfg(unix)]
+
+mod support;
+
+use std::fs::{self, File};
+use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+use support::{fails, folder, json, run, run_line};
+
+/// The program, to be started in `folder`.
+fn program(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_photon-mapping"));
+    command.current_dir(folder);
+    command
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// A list of few photons in `folder`.
+fn few(folder: &Path) -> PathBuf {
+    let line = "render --photons 2000 --size 8x6 --quiet --out {}";
+    run_line(line, &[&folder.join("few")]).success();
+    folder.join("few/photons.ply")
+}
+
+/// The positions that the reference stores of `photons` with `seed`.
+fn csv(seed: u64, photons: u64) -> String {
+    let mut text = "x,y,z\n".to_owned();
+    for record in fixtures::list(&fixtures::handout(seed, photons)) {
+        let [x, y, z] = record.position.to_array();
+        text += &format!("{x},{y},{z}\n");
+    }
+    text
+}
+
+fn write(path: PathBuf, contents: impl AsRef<[u8]>) -> PathBuf {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, contents).unwrap();
+    path
+}
+
+fn mkfifo(path: &Path) {
+    assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+}
+
+fn mode(path: &Path) -> u32 {
+    fs::metadata(path).unwrap().permissions().mode() & 0o777
+}
+
+#[test]
+fn outputs_keep_what_stands_at_their_place() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = few(folder.path());
+    let expected = fs::read(&list).unwrap();
+    let merge = |out: &Path| run_line("merge --out {} {}", &[out, &list]);
+
+    write(at("target"), "old");
+    fs::set_permissions(at("target"), fs::Permissions::from_mode(0o640)).unwrap();
+    symlink("target", at("link")).unwrap();
+    merge(&at("link")).success();
+    assert!(at("link").is_symlink(), "a link stays a link");
+    assert!(fs::read(at("target")).unwrap() == expected);
+    assert_eq!(mode(&at("target")), 0o640, "the mode is kept");
+
+    symlink("new/target", at("dangling")).unwrap();
+    merge(&at("dangling")).success();
+    assert!(at("dangling").is_symlink() && fs::read(at("new/target")).unwrap() == expected);
+
+    mkfifo(&at("pipe"));
+    let got = File::create(at("got")).unwrap();
+    let mut reader = Command::new("cat").arg(at("pipe")).stdout(got).spawn().unwrap();
+    merge(&at("pipe")).success();
+    assert!(reader.wait().unwrap().success());
+    assert!(fs::symlink_metadata(at("pipe")).unwrap().file_type().is_fifo());
+    assert!(fs::read(at("got")).unwrap() == expected, "a pipe is written through");
+
+    merge(Path::new("/dev/null")).success();
+    assert!(fs::symlink_metadata("/dev/null").unwrap().file_type().is_char_device());
+    fails("merge --out /dev/full {}", &[&list], &["/dev/full", "cannot be written"]);
+
+    write(at("locked"), "old");
+    fs::set_permissions(at("locked"), fs::Permissions::from_mode(0o444)).unwrap();
+    fails("merge --out {} {}", &[&at("locked"), &list], &["locked", "read-only"]);
+    assert_eq!((fs::read(at("locked")).unwrap(), mode(&at("locked"))), (b"old".to_vec(), 0o444));
+    // No verb writes in another way.
+    let grade = at("grade.csv");
+    write(grade.clone(), csv(1, 20_000));
+    for line in ["grade --out {} {}", "grade --format html --out {} {}"] {
+        fails(line, &[&at("locked"), &grade], &["locked", "read-only"]);
+    }
+    fails("render --photons 99 --size 8x6 --out {}", &[&at("locked")], &["locked", "found a file"]);
+}
+
+#[test]
+fn outputs_replace_no_input() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = few(folder.path());
+    let picture = folder.path().join("few/assignment8.png");
+    fs::hard_link(&list, at("same.ply")).unwrap();
+    symlink(&list, at("link.ply")).unwrap();
+    write(at("amy/photons.csv"), "x,y,z\n1,2,3\n");
+    write(at("scores.json"), "{}");
+    let before = fs::read(&list).unwrap();
+    let same = "found one that is read";
+    fails("merge {} --out {}", &[&list, &list], &[same]);
+    fails("merge {} --out {}", &[&list, &at("same.ply")], &[same]);
+    fails("merge {} --out {}", &[&list, &at("link.ply")], &[same]);
+    fails("grade {} --out {}", &[&list, &list], &[same]);
+    fails("grade {} --out {}", &[&at("amy"), &at("amy/photons.csv")], &[same]);
+    let line = "grade {} --policy {} --out {}";
+    fails(line, &[&list, &at("scores.json"), &at("scores.json")], &[same]);
+    let other = at("other.png");
+    fs::copy(&picture, &other).unwrap();
+    image::RgbImage::new(8, 6).save(&other).unwrap();
+    fails("compare {} {} --out {}", &[&picture, &other, &picture], &[same]);
+    let out = format!("--out={}", list.display());
+    let output = program(folder.path()).args(["merge", &out]).arg(&list).output().unwrap();
+    assert!(output.status.code() == Some(2) && stderr(&output).contains(same));
+    assert!(fs::read(&list).unwrap() == before);
+}
+
+#[test]
+fn names_of_files_are_made_no_folders() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let lists = [write(at("a.csv"), csv(1, 20_000)), write(at("b.csv"), csv(2, 20_000))];
+    for (format, name) in [("gradescope", "res/results.json"), ("html", "page.html")] {
+        let line = format!("grade --format {format} --out {{}} {{}} {{}}");
+        let expected = ["the name of a file", "FOLDER"];
+        fails(&line, &[&at(name), &lists[0], &lists[1]], &expected);
+        assert!(!at(name).exists());
+    }
+    fails("render --photons 99 --size 8x6 --out {}", &[&at("list.ply")], &["FOLDER"]);
+    let out = at("new.json/");
+    run_line("grade --format gradescope --out {} {}", &[&out, &lists[0]]).success();
+    assert!(at("new.json/a.csv.json").is_file(), "a folder may be called so if that is said");
+}
+
+#[test]
+fn what_killed_runs_leave_is_removed_and_told() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join("few").join(name);
+    few(folder.path());
+    write(at(".unfinished-aBc123"), "stale");
+    write(at(".unfinished-notes.txt"), "somebody's own");
+    fs::create_dir(at(".unfinished-folder")).unwrap();
+    let held = File::create(at(".unfinished-alive1")).unwrap();
+    held.lock().unwrap();
+    let list = at("photons.ply");
+    let out = at("merged.ply");
+    let output = run_line("merge {} --out {}", &[&list, &out]).success();
+    let error = stderr(output.get_output());
+    assert!(error.contains(".unfinished-aBc123") && error.lines().count() == 1, "{error}");
+    assert!(!at(".unfinished-aBc123").exists());
+    for other in [".unfinished-notes.txt", ".unfinished-folder", ".unfinished-alive1"] {
+        assert!(at(other).exists(), "{other}");
+    }
+}
+
+#[test]
+fn signals_end_a_run_with_their_own_exit_codes() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143), ("-HUP", 129)] {
+        let folder = folder();
+        let out = folder.path().join("out");
+        let mut child = program(folder.path())
+            .args(["render", "--photons", "4e9", "--size", "8x6"])
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        while fs::read_dir(&out).map_or(0, Iterator::count) < 2 {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args([signal, &id]).status().unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), Some(code), "{signal}");
+        assert_eq!(fs::read_dir(&out).unwrap().count(), 0, "{signal}");
+    }
+}
+
+#[test]
+fn closed_standard_output_is_told() {
+    let folder = folder();
+    let list = write(folder.path().join("a.csv"), csv(1, 20_000));
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = program(folder.path())
+        .arg("grade")
+        .arg(list)
+        .stdout(writer)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+        .wait_with_output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("standard output"), "{}", stderr(&output));
+}
+
+#[test]
+fn files_that_are_called_like_options_are_refused() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    write(at("a.csv"), "x,y,z\n1,2,3\n");
+    write(at("zz.json"), "{\"unreadable\": 4}");
+    for option in ["--policy=zz.json", "--out=a.csv", "-h"] {
+        write(at(option), "");
+        let output = program(folder.path()).args(["grade", option, "a.csv"]).output().unwrap();
+        let error = stderr(&output);
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{option}: {error}");
+        assert!(error.contains(option) && error.contains("write -- before"), "{error}");
+        let output = program(folder.path()).args(["grade", "--", option]).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{option}: {}", stderr(&output));
+        fs::remove_file(at(option)).unwrap();
+    }
+    assert_eq!(fs::read(at("a.csv")).unwrap(), b"x,y,z\n1,2,3\n");
+}
+
+#[test]
+fn standard_input_and_powers_of_ten() {
+    let folder = folder();
+    let list = write(folder.path().join("a.csv"), csv(1, 60_000));
+    let output = program(folder.path())
+        .args(["grade", "--format", "json", "--emitted", "6e4", "-"])
+        .stdin(File::open(&list).unwrap())
+        .output()
+        .unwrap();
+    let grade: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&grade["verdict"], &grade["submission"]), (&"correct".into(), &"-".into()));
+    assert_eq!(grade["emitted"], 60_000);
+    let output = program(folder.path())
+        .args(["render", "--size", "8x6", "--json", "--photons-from", "-"])
+        .stdin(File::open(&list).unwrap())
+        .output()
+        .unwrap();
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(summary["stored"].as_u64().unwrap() > 1000);
+    let counted = |photons: &str| {
+        json(run_line(&format!("render --count-only --json --photons {photons}"), &[]).success())
+    };
+    assert_eq!(counted("2e3")["sha256"], counted("2000")["sha256"]);
+    for wrong in ["1.5", "1e-1", "1e99", "nan"] {
+        fails(&format!("render --count-only --photons {wrong}"), &[], &["a whole number from 1"]);
+    }
+}
+
+/// The grades of `paths`.
+fn grades(options: &[&str], paths: &[&Path]) -> Vec<Value> {
+    let words = ["grade", "--format", "json", "--emitted", "60000"].iter().chain(options);
+    let words = words.map(|word| word.as_ref()).chain(paths.iter().map(|path| path.as_os_str()));
+    match json(run(words).success()) {
+        Value::Array(grades) => grades,
+        grade => vec![grade],
+    }
+}
+
+fn remarks(grade: &Value) -> String {
+    let findings = grade["findings"].as_array().unwrap().iter();
+    findings.map(|finding| finding["found"].as_str().unwrap().to_owned() + "\n").collect()
+}
+
+#[test]
+fn submissions_are_found_by_what_they_contain() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = csv(1, 60_000);
+    let mesh = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                property float z\nelement face 1\nproperty list uchar int i\nend_header\n\
+                0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n";
+    let line = "render --photons 60000 --quiet --out {}";
+    run_line(line, &[&at("render")]).success();
+    let picture = fs::read(at("render/assignment8.png")).unwrap();
+    // A right picture decides beside what cannot be a list of photons.
+    for (name, beside) in [("mesh", mesh), ("camera", "0 1.5 4\n"), ("light", "x,y,z\n0,0,1.7\n")] {
+        write(at(name).join("assignment8.png"), &picture);
+        write(at(name).join(format!("{name}.txt")), beside);
+        write(at(name).join("more.ply"), mesh);
+        let grade = &grades(&[], &[&at(name)])[0];
+        assert_eq!(grade["verdict"], "correct", "{grade:#}");
+        assert!(remarks(grade).contains("no photon list"), "{grade:#}");
+    }
+    // Parts of one submission in two folders.
+    write(at("two/results/photons.csv"), &list);
+    write(at("two/report/figure.png"), &picture);
+    assert_eq!(grades(&[], &[&at("two")])[0]["verdict"], "correct");
+    // A list on top of a deep and wide folder.
+    write(at("deep/photons.csv"), &list);
+    write(at("deep").join("more/".repeat(9)).join("photons.csv"), "x,y,z\n");
+    fs::create_dir(at("deep/wide")).unwrap();
+    for number in 0..=10_000 {
+        File::create(at("deep/wide").join(number.to_string())).unwrap();
+    }
+    let grade = &grades(&[], &[&at("deep")])[0];
+    assert_eq!(grade["verdict"], "correct", "{grade:#}");
+    assert!(remarks(grade).contains("was not searched"), "{grade:#}");
+    // Other formats are named, documents only where there is nothing else.
+    write(at("ppm/out.ppm"), b"P6\n1 1\n255\n\x01\x02\x03");
+    write(at("pdf/report.pdf"), b"%PDF-1.7\n");
+    write(at("tga/out.tga"), [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0, 1, 2, 3]);
+    write(at("jp2/out.jp2"), b"\0\0\0\x0cjP  \r\n\x87\n\0\0\0\x14ftypjp2 \0\0\0\0jp2 ");
+    for (name, kind) in [("ppm", "PPM"), ("pdf", "PDF"), ("tga", "TGA"), ("jp2", "JP2")] {
+        let grade = &grades(&[], &[&at(name)])[0];
+        let expected = format!("{kind}, not PNG: hand in the PNG that the framework writes");
+        assert!(remarks(grade).contains(&expected), "{grade:#}");
+    }
+    write(at("with/report.pdf"), b"%PDF-1.7\n");
+    write(at("with/shot.png"), &picture);
+    assert_eq!(grades(&[], &[&at("with")])[0]["verdict"], "correct");
+}
+
+#[test]
+fn folders_that_could_be_a_class_are_asked_about() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = csv(1, 20_000);
+    for (name, files) in [
+        ("pair", ["amy/photons.csv", "bob/notes.txt"]),
+        ("stray", ["amy/photons.csv", "bob/photons.csv"]),
+    ] {
+        files.iter().for_each(|file| drop(write(at(name).join(file), &list)));
+    }
+    write(at("pair/bob/notes.txt"), "no list");
+    write(at("stray/photons.csv"), &list);
+    write(at("stray/.eve/photons.csv"), &list);
+    for name in ["pair", "stray"] {
+        fails("grade {}", &[&at(name)], &[name, "amy", "bob", "--submission", "--class"]);
+        assert_eq!(grades(&["--submission"], &[&at(name)]).len(), 1, "{name}");
+    }
+    let names = |name: &str| -> Vec<String> {
+        let grades = grades(&["--class"], &[&at(name)]);
+        let last = |grade: &Value| {
+            let name = grade["submission"].as_str().unwrap().rsplit('/').next();
+            name.unwrap().to_owned()
+        };
+        grades.iter().map(last).collect()
+    };
+    assert_eq!(names("pair"), ["amy", "bob"]);
+    assert_eq!(names("stray"), ["amy", "bob", "photons.csv"]);
+    let output = run_line("grade --class {}", &[&at("stray")]).success();
+    assert!(stderr(output.get_output()).contains("left out: .eve"));
+    // Others are graded all the same.
+    let other = write(at("other.csv"), &list);
+    let output = run_line("grade --format json {} {}", &[&at("pair"), &other]).code(2);
+    assert_eq!(json(output).as_array().map_or(1, Vec::len), 1);
+}
+
+/// A class in which half of all submissions attack.
+fn hostile_class(class: &Path, outside: &Path) -> Vec<String> {
+    let at = |name: &str| class.join(name);
+    let good = csv(1, 20_000);
+    let ply = |rest: &str| format!("ply\nformat binary_little_endian 1.0\n{rest}");
+    let xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
+    let bytes = "property float x\nproperty uchar y\nproperty uchar z\nend_header\n";
+    let long = "漢".repeat(85);
+    let list = |name: &str, contents: Vec<u8>| drop(write(at(name).join("photons.csv"), contents));
+    list(&long, good.clone().into());
+    list(
+        "many-rows",
+        [ply(&format!("element vertex 4000000\n{bytes}")).into(), vec![1; 24_000_000]].concat(),
+    );
+    list(
+        "many-rows-2",
+        [ply(&format!("element vertex 4000000\n{bytes}")).into(), vec![2; 24_000_000]].concat(),
+    );
+    list("comments", "#,x,y,z,x,y,z\n".repeat(2_000_000).into());
+    list("vertices", ply(&format!("element vertex {}\n{xyz}1234", u64::MAX)).into());
+    list("nothing", ply(&format!("element none {}\nelement vertex 0\n{xyz}", u64::MAX)).into());
+    list("endless-line", vec![b'7'; 20_000_000]);
+    list("escape", b"x,y,z\n1,\x1b[2J\xe2\x80\xaebob: correct,3\n".to_vec());
+    list("bob: correct, 4 of 4 points", b"x,y\n".to_vec());
+    list(
+        "nan",
+        "x,y,z\n".to_owned().into_bytes().into_iter().chain(*b"nan,inf,1.#IND\n").collect(),
+    );
+    list("columns", (",".repeat(60_000) + "\nx,y,z\n").into());
+    fs::create_dir(at("sparse")).unwrap();
+    File::create(at("sparse/photons.csv")).unwrap().set_len(1 << 36).unwrap();
+    fs::create_dir(at("pipe")).unwrap();
+    mkfifo(&at("pipe/photons.csv"));
+    fs::create_dir(at("loop")).unwrap();
+    symlink("../loop", at("loop/loop")).unwrap();
+    symlink(outside, at("link-out")).unwrap();
+    fs::create_dir(at("link-in")).unwrap();
+    symlink(outside.join("secret.csv"), at("link-in/photons.csv")).unwrap();
+    let mut png = Vec::new();
+    let picture = image::RgbImage::new(640, 480);
+    picture.write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png).unwrap();
+    png[16..24].copy_from_slice(&[0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff]);
+    write(at("pixels/assignment8.png"), &png);
+    write(at("packed/photons.zip"), b"PK\x03\x04");
+    write(at("--out=out").join("photons.csv"), &good);
+    write(at("deep").join("d/".repeat(60)).join("photons.csv"), &good);
+    (0..20).map(|number| format!("good-{number:02}")).collect()
+}
+
+/// All files below `folder` with their contents.
+fn tree(folder: &Path) -> Vec<(PathBuf, u64)> {
+    let mut all = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let entry = entry.unwrap();
+        let about = fs::symlink_metadata(entry.path()).unwrap();
+        all.push((entry.path(), if about.is_file() { about.len() } else { 0 }));
+        if about.is_dir() {
+            all.extend(tree(&entry.path()));
+        }
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn a_class_of_attackers_ends_with_all_grades() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    write(at("outside/secret.csv"), "x,y,z\n1,password,3\n");
+    fs::create_dir(at("class")).unwrap();
+    let good = hostile_class(&at("class"), &at("outside"));
+    for (seed, name) in good.iter().enumerate() {
+        write(at("class").join(name).join("photons.csv"), csv(seed as u64, 60_000));
+    }
+    let alone = &grades(&[], &[&at("class").join(&good[7])])[0];
+    let before = tree(folder.path());
+    let program = env!("CARGO_BIN_EXE_photon-mapping");
+    let limits = "ulimit -v 3000000; ulimit -n 40; ulimit -t 120";
+    let grade = format!("{program} grade --class --emitted 60000");
+    let nobody = "setpriv --reuid=65534 --regid=65534 --clear-groups";
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
+    let is_root = Command::new("sh").args(["-c", &format!("{nobody} test -x {program}")]).status();
+    let mut prefixes = vec![""];
+    prefixes.extend(is_root.is_ok_and(|status| status.success()).then_some(nobody));
+    for prefix in prefixes {
+        let start = Instant::now();
+        let line = format!("{limits}; {prefix} {grade} --format json class");
+        let output =
+            Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
+        let seconds = start.elapsed();
+        let grades: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
+            panic!("{error}: {}", stderr(&output));
+        });
+        assert!(seconds < Duration::from_secs(60), "{seconds:?}");
+        assert_eq!((output.status.code(), grades.len()), (Some(0), 40), "{}", stderr(&output));
+        let all = String::from_utf8_lossy(&output.stdout);
+        assert!(!all.contains("password"), "what a link leads to is not told");
+        assert!(!all.contains('\u{202e}') && !all.contains("\\u001b"));
+        for grade in &grades {
+            let name = grade["submission"].as_str().unwrap();
+            if let Some(name) = name.strip_prefix("class/good-") {
+                assert_eq!(grade["score"], 4.0, "{name}: {grade:#}");
+            } else if !["漢", "--out=out"]
+                .iter()
+                .any(|name| grade["submission"].as_str().unwrap().contains(name))
+            {
+                assert!(grade["score"].as_f64().unwrap() <= 2.0, "{grade:#}");
+            }
+        }
+        let same = grades.iter().find(|grade| grade["submission"] == "class/good-07").unwrap();
+        assert_eq!((&same["score"], &same["findings"]), (&alone["score"], &alone["findings"]));
+    }
+    assert_eq!(tree(folder.path()), before, "nothing is touched");
+    // A file of its own for each, whatever it is called.
+    let line = format!("{grade} --format gradescope --out out class");
+    let output =
+        Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(fs::read_dir(at("out")).unwrap().count(), 40);
+    fs::remove_dir_all(at("out")).unwrap();
+    assert_eq!(tree(folder.path()), before, "nothing outside of the output folder is touched");
+}
+
+#[test]
+fn what_cannot_be_read_now_is_told_and_tried_again() {
+    let folder = folder();
+    let lists: Vec<String> = (0..6).map(|seed| format!("list-{seed}.csv")).collect();
+    for (seed, name) in lists.iter().enumerate() {
+        write(folder.path().join(name), csv(seed as u64, 20_000));
+    }
+    let program = env!("CARGO_BIN_EXE_photon-mapping");
+    let graded = |limits: &str, names: &str| {
+        let line = format!("{limits}{program} grade {names}");
+        Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap()
+    };
+    // Threads may be lucky and never have two files open at once.
+    let output = graded("ulimit -n 4; ", &lists.join(" "));
+    let grades = String::from_utf8_lossy(&output.stdout).into_owned();
+    match output.status.code() {
+        Some(0) => assert!(!grades.contains("unreadable"), "{grades}"),
+        code => assert!(code == Some(2) && stderr(&output).contains("try again"), "{grades}"),
+    }
+    let output = graded("", &format!("{} {}", "x".repeat(300), lists[0]));
+    let grades = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{grades}");
+    assert!(grades.contains("list-0.csv: "), "the others are graded: {grades}");
+    assert!(stderr(&output).contains("could not be read: try again"), "{}", stderr(&output));
+}
+
+#[test]
+fn kill_leaves_each_file_whole_or_as_it_was() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    for seed in 0..4 {
+        write(at(&format!("class/student-{seed}/photons.csv")), csv(seed, 5_000));
+    }
+    let mut delay = 17;
+    for _ in 0..12 {
+        let mut child = program(folder.path())
+            .args(["grade", "--class", "class", "--format", "gradescope", "--out", "out"])
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        delay = delay * 31 % 409;
+        std::thread::sleep(Duration::from_millis(delay));
+        let _ = child.kill();
+        child.wait().unwrap();
+        for entry in fs::read_dir(at("out")).into_iter().flatten() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "json") {
+                let results = serde_json::from_slice::<Value>(&fs::read(&path).unwrap());
+                assert!(results.is_ok(), "{}", path.display());
+            }
+        }
+    }
+    let line = "grade --class {} --format gradescope --out {}";
+    run_line(line, &[&at("class"), &at("out")]).success();
+    assert_eq!(fs::read_dir(at("out")).unwrap().count(), 4, "nothing unfinished is left");
+}
+
+#[test]
+fn pipes_are_refused_where_their_end_may_never_come() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = few(folder.path());
+    mkfifo(&at("pipe"));
+    for line in ["compare {} {}", "merge {} {} --out out.ply", "explore --submission {} --out {}"] {
+        fails(line, &[&at("pipe"), &list], &["pipe"]);
+    }
+    fails("compare {} {}", &[&list, &at("pipe")], &["pipe"]);
+}
+
+#[test]
+fn no_bounces_store_nothing() {
+    let folder = folder();
+    let some = write(folder.path().join("some.csv"), csv(1, 20_000));
+    let none = write(folder.path().join("none.csv"), "x,y,z\n");
+    let options = ["--max-bounces", "0"];
+    let [some, none] = &grades(&options, &[&some, &none])[..] else { panic!("two grades") };
+    assert_eq!((&some["verdict"], &some["score"]), (&"incorrect".into(), &2.0.into()));
+    assert_eq!((&none["verdict"], &none["score"]), (&"correct".into(), &4.0.into()));
+}
+
+#[test]
+fn pictures_cost_no_more_than_their_pixels() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    run_line("render --photons 60000 --quiet --out {}", &[&at("render")]).success();
+    let png = fs::read(at("render/assignment8.png")).unwrap();
+    // Three million chunks would fit into what is read; none of them is unpacked.
+    let chunk = |kind: &[u8; 4], contents: &[u8]| {
+        [&(contents.len() as u32).to_be_bytes(), &kind[..], contents, &[0; 4]].concat()
+    };
+    let profile = [b"p\0\0".as_slice(), &vec![0x78; 1 << 20]].concat();
+    let texts = chunk(b"zTXt", b"a\0\0x").repeat(100_000);
+    write(
+        at("many/assignment8.png"),
+        [&png[..33], &chunk(b"iCCP", &profile), &texts, &png[33..]].concat(),
+    );
+    write(at("few/assignment8.png"), &png);
+    let start = Instant::now();
+    let grade = &grades(&[], &[&at("many")])[0];
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    let few = &grades(&[], &[&at("few")])[0];
+    assert_eq!((&grade["verdict"], &grade["findings"]), (&few["verdict"], &few["findings"]));
+    // A chunk that claims to be longer than the file is broken, not endless.
+    write(at("cut/assignment8.png"), [&png[..33], &[0xff; 4], b"IDAT", &png[33..99]].concat());
+    assert!(remarks(&grades(&[], &[&at("cut")])[0]).contains("broken PNG"));
+}
+
+#[test]
+fn names_move_no_cursor_and_read_as_no_grade() {
+    let folder = folder();
+    let odd = "bob: correct, 4 of 4 points\u{1b}[2J\u{202e}\u{200b}\u{9b}";
+    let at = |name: &str| folder.path().join(name);
+    write(at("class").join(odd).join("photons.csv"), "x,y\n1,2\n");
+    write(at(&format!("{odd}.csv")), format!("x,y,z\n{odd},2,3\n"));
+    write(at(&format!("{odd}.obj")), format!("usemtl {odd}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    write(at("policy.json"), format!("{{\"{}\": 1}}", odd.replace('\u{1b}', "\\u001b")));
+    let list = format!("{odd}.csv");
+    let model = format!("{odd}.obj");
+    let few = few(folder.path());
+    let few = few.to_str().unwrap();
+    let runs: [&[&str]; 7] = [
+        &["grade", "--class", "class"],
+        &["grade", "--class", "class", "--format", "json"],
+        &["grade", "--policy", "policy.json", &list],
+        &["compare", few, &list],
+        &["compare", "--json", few, few],
+        &["render", "--photons-from", &list],
+        &["render", "--scene", &model, "--light", "0,0,1", "--count-only"],
+    ];
+    for arguments in runs {
+        let output = program(folder.path()).args(arguments).output().unwrap();
+        for text in [&output.stdout, &output.stderr] {
+            let text = String::from_utf8(text.clone()).unwrap();
+            let odd = |letter: char| "\u{1b}\u{202e}\u{200b}\u{9b}".contains(letter);
+            assert!(!text.contains(odd), "{arguments:?}: {text:?}");
+            let reads_as_grade =
+                |line: &str| line.starts_with("bob: ") || line.contains("class/bob: ");
+            assert!(
+                !text.lines().any(|line| reads_as_grade(line) && !line.contains('"')),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn outputs_that_cannot_be_written_leave_what_was_there() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    few(folder.path());
+    write(at("a.csv"), csv(1, 20_000));
+    write(at("b.csv"), csv(2, 20_000));
+    image::RgbImage::new(8, 6).save(at("black.png")).unwrap();
+    let program = env!("CARGO_BIN_EXE_photon-mapping");
+    for (line, outputs) in [
+        ("merge few/photons.ply --out out/merged.csv", &["merged.csv"][..]),
+        ("grade a.csv --out out/a.txt", &["a.txt"]),
+        ("grade a.csv b.csv --format gradescope --out out", &["a.csv.json", "b.csv.json"]),
+        ("compare few/assignment8.png black.png --out out/d.png", &["d.png"]),
+        ("render --photons 2000 --size 8x6 --out out", &["assignment8.png", "photons.ply"]),
+        ("explore --photons 200 --out out", &["explore.html"]),
+    ] {
+        // In blocks of 512 bytes: nothing fits, or only the start.
+        for most in [0, 1] {
+            outputs.iter().for_each(|name| drop(write(at("out").join(name), "old")));
+            let line = format!("trap '' XFSZ; ulimit -f {most}; {program} {line}");
+            let output =
+                Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
+            let error = stderr(&output);
+            let fits = |name: &&str| fs::metadata(at("out").join(name)).unwrap().len() <= 512;
+            assert!(outputs.iter().all(fits), "{line}");
+            let is_old = |name: &&str| fs::read(at("out").join(name)).unwrap() == b"old";
+            if outputs.iter().any(is_old) {
+                assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+                assert!(error.contains("cannot be written"), "{line}: {error}");
+            }
+            let left = fs::read_dir(at("out")).unwrap().count();
+            assert_eq!(left, outputs.len(), "{line}: nothing unfinished is left");
+        }
+        fs::remove_dir_all(at("out")).unwrap();
+    }
+}

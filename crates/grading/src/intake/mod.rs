@@ -1,0 +1,240 @@
+//! From the files and folders that a grader names to one submission a student.
+
+mod class;
+pub mod contents;
+mod folder;
+pub mod kinds;
+
+use std::collections::HashMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::submission::Submission;
+use super::text::printable;
+use contents::{Contents, contents};
+use folder::Found;
+use kinds::Kind;
+
+/// A submission, and what there is to say about its files.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HandedIn {
+    /// The submission.
+    pub submission: Submission,
+    /// Why it cannot be graded at all.
+    pub problem: Option<String>,
+    /// Whether that is no fault of the student's, and may be over soon.
+    pub try_again: bool,
+    /// What was left out.
+    pub notes: Vec<String>,
+    /// Which others have the same files.
+    pub twins: Vec<String>,
+}
+
+/// What a folder is taken for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Folders {
+    /// For what it can only be.
+    #[default]
+    Clear,
+    /// For a class: each folder and file in it is a submission.
+    Class,
+    /// For one submission.
+    Submission,
+}
+
+/// What a grader named.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Collected {
+    /// The submissions, in the order of the paths.
+    pub handed_in: Vec<HandedIn>,
+    /// The folders that could be a class or one submission, and why.
+    pub ambiguous: Vec<String>,
+    /// What in a class is no submission.
+    pub notes: Vec<String>,
+}
+
+/// The submissions named by `paths`: a file is one, a list and a picture that differ in the extension alone
+/// are one, and a folder is one or a class, as `folders` says.
+pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
+    let mut collected = Collected::default();
+    let mut all = Vec::new();
+    for path in paths {
+        let is_class = path.is_dir()
+            && match folders {
+                Folders::Class => true,
+                Folders::Submission => false,
+                Folders::Clear => match class::is_class(path) {
+                    Ok(is_class) => is_class,
+                    Err(why) => {
+                        collected.ambiguous.push(why);
+                        continue;
+                    }
+                },
+            };
+        if is_class {
+            let (students, mut notes) = class::students(path);
+            all.extend(students.into_iter().map(|student| (student, true)));
+            collected.notes.append(&mut notes);
+        } else {
+            all.push((path.clone(), false));
+        }
+    }
+    let mut handed_in: Vec<HandedIn> =
+        all.iter().map(|(path, is_of_class)| from(path, *is_of_class)).collect();
+    let paths: Vec<PathBuf> = all.into_iter().map(|(path, _)| path).collect();
+    join_stems(&mut handed_in, &paths);
+    let mut seen: HashMap<String, usize> = HashMap::new();
+    for one in &mut handed_in {
+        let times = seen.entry(one.submission.name.clone()).or_default();
+        *times += 1;
+        if *times > 1 {
+            one.submission.name += &format!(" ({times})");
+        }
+    }
+    tell_twins(&mut handed_in);
+    Collected { handed_in, ..collected }
+}
+
+fn from(path: &Path, is_of_class: bool) -> HandedIn {
+    let handed_in = if is_of_class && path.is_symlink() {
+        // It may lead to another student's files, or anywhere.
+        HandedIn {
+            problem: Some("it is a link, which is not followed".to_owned()),
+            ..HandedIn::default()
+        }
+    } else if path.is_dir() {
+        from_folder(path)
+    } else {
+        from_file(path)
+    };
+    HandedIn { submission: Submission { name: name(path), ..handed_in.submission }, ..handed_in }
+}
+
+fn unread(error: &io::Error) -> HandedIn {
+    HandedIn {
+        problem: Some(format!("it could not be read: {error}: try again")),
+        try_again: true,
+        ..HandedIn::default()
+    }
+}
+
+fn from_file(path: &Path) -> HandedIn {
+    let mut handed_in = HandedIn::default();
+    match fs::metadata(path) {
+        Err(error) if path.is_symlink() => {
+            handed_in.problem = Some(format!("it is a link that leads nowhere: {error}"));
+        }
+        Err(error) => return unread(&error),
+        Ok(about) if !about.is_file() => {
+            handed_in.problem = Some("it is neither a file nor a folder".to_owned());
+        }
+        Ok(_) => match kinds::start(path) {
+            Err(error) => return unread(&error),
+            Ok(start) => match kinds::kind(&start, path) {
+                Some(Kind::Packed(kind)) => {
+                    handed_in.problem = Some(format!("it is packed ({kind}): unpack it first"));
+                }
+                Some(Kind::Picture(_) | Kind::Document(_)) => {
+                    handed_in.submission.picture = Some(path.to_owned());
+                }
+                None => handed_in.submission.list = Some(path.to_owned()),
+            },
+        },
+    }
+    handed_in
+}
+
+fn from_folder(folder: &Path) -> HandedIn {
+    let found = match Found::search(folder) {
+        Ok(found) => found,
+        Err(error) => return unread(&error),
+    };
+    let is_partial = found.is_partial;
+    let (choice, notes) = found.choose(folder);
+    let mut handed_in = HandedIn { notes, ..HandedIn::default() };
+    match choice {
+        Ok((None, None)) => {
+            let mut problem = "it has neither a photon list nor a picture in it".to_owned();
+            handed_in.notes.iter().for_each(|note| problem += &format!("; {note}"));
+            if is_partial {
+                problem += ": try again";
+            }
+            handed_in.problem = Some(problem);
+            handed_in.try_again = is_partial;
+        }
+        Ok((list, picture)) => {
+            handed_in.submission = Submission { list, picture, ..Submission::default() };
+        }
+        Err(problem) => handed_in.problem = Some(problem),
+    }
+    handed_in
+}
+
+/// Notes submissions whose pictures are the same, byte by byte; for lists see [`crate::twins`].
+fn tell_twins(all: &mut [HandedIn]) {
+    let files: Vec<Option<PathBuf>> =
+        all.iter().map(|one| one.submission.picture.clone()).collect();
+    // A file that is named twice is no twin of itself, but a link to another's is.
+    let named = |file: &PathBuf| (!file.is_symlink()).then(|| fs::canonicalize(file).ok())?;
+    let paths: Vec<Option<PathBuf>> =
+        files.iter().map(|file| file.as_ref().and_then(named)).collect();
+    let mut of_contents: HashMap<Contents, Vec<usize>> = HashMap::new();
+    for (at, contents) in contents(&files).into_iter().enumerate() {
+        if let Some(contents) = contents {
+            of_contents.entry(contents).or_default().push(at);
+        }
+    }
+    for twins in of_contents.values() {
+        for at in twins {
+            let is_other = |other: &&usize| {
+                other != &at && (paths[**other].is_none() || paths[**other] != paths[*at])
+            };
+            let names = twins.iter().filter(is_other).take(5);
+            let names: Vec<_> = names.map(|other| all[*other].submission.name.clone()).collect();
+            if !names.is_empty() {
+                all[*at].twins.push(format!(
+                    "the picture is the same, byte by byte, as that of {}; two right programs with the \
+                     same random numbers may write the same",
+                    names.join(", ")
+                ));
+            }
+        }
+    }
+}
+
+fn name(path: &Path) -> String {
+    let name = path.display().to_string();
+    let trimmed = name.trim_end_matches('/');
+    printable(if trimmed.is_empty() { &name } else { trimmed })
+}
+
+/// Joins `alice.csv` and `alice.png`, where there is just one list and one picture of the stem.
+fn join_stems(all: &mut Vec<HandedIn>, paths: &[PathBuf]) {
+    let mut of_stem: HashMap<PathBuf, (Vec<usize>, Vec<usize>)> = HashMap::new();
+    for (at, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_dir()) {
+        let (lists, pictures) = of_stem.entry(path.with_extension("")).or_default();
+        match &all[at].submission {
+            Submission { list: Some(_), .. } => lists.push(at),
+            Submission { picture: Some(_), .. } => pictures.push(at),
+            _ => {}
+        }
+    }
+    let mut joined = Vec::new();
+    for (stem, places) in of_stem {
+        if let ([list], [picture]) = (places.0.as_slice(), places.1.as_slice()) {
+            let (first, second) = (*list.min(picture), *list.max(picture));
+            let later = all[second].submission.clone();
+            let submission = &mut all[first].submission;
+            submission.list = submission.list.take().or(later.list);
+            submission.picture = submission.picture.take().or(later.picture);
+            submission.name = name(&stem);
+            joined.push(second);
+        }
+    }
+    let mut at = 0;
+    all.retain(|_| {
+        at += 1;
+        !joined.contains(&(at - 1))
+    });
+}
