@@ -1,7 +1,7 @@
 //! `photon-mapping autograde`: what Gradescope hands over becomes its results.json, whatever it is.
 //!
-//! `check` and `grade` run as programs of their own, so that one that hangs, crashes or takes all memory
-//! costs its part of the result alone.
+//! `check` and `grade` run as programs of their own, so that one that hangs, crashes or takes all
+//! memory costs its part of the result alone.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
@@ -31,8 +31,8 @@ const RESULTS: [&str; 12] =
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example: photon-mapping autograde /autograder --policy /autograder/source/policy.json
-C++ files are judged by 'check', a list or a picture by 'grade'; the score is that of the C++ if it can \
-be run.
+C++ files are judged by 'check', a list or a picture by 'grade'; the score is that of the C++ if \
+it can be run.
 Exit codes: 0 there is a results.json, whatever the grade; 2 it could not be written.")]
 pub struct AutogradeArgs {
     /// The folder in which submission/ lies, and into which results/results.json is written
@@ -99,8 +99,8 @@ fn results(arguments: &AutogradeArgs) -> Value {
         parts.push(graded(&submission, arguments));
     }
     if parts.is_empty() {
-        let output = "Nothing was handed in: expected PointLight.cpp and PhotonMappingRenderer.cpp, a \
-                      photon list (PLY or CSV), or a picture (PNG).\n";
+        let output = "Nothing was handed in: expected PointLight.cpp and \
+                      PhotonMappingRenderer.cpp, a photon list (PLY or CSV), or a picture (PNG).\n";
         parts.push(Part { score: None, output: output.to_owned(), tests: Vec::new() });
     }
     combined(&parts, policy.unreadable)

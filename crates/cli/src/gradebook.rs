@@ -1,5 +1,5 @@
-//! Grades for a gradebook: students by the names of a roster or of a course system's export, a row for
-//! each, and what a regrade changed.
+//! Grades for a gradebook: students by the names of a roster or of a course system's export, a row
+//! for each, and what a regrade changed.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,8 +17,8 @@ use super::export::{self, Student};
 /// The options that are about the class, not about photons.
 #[derive(Debug, Args)]
 pub struct GradebookArgs {
-    /// A CSV file with a column for names, and one for ids or e-mail addresses if there is one: names and
-    /// orders the submissions, and tells who handed in nothing
+    /// A CSV file with a column for names, and one for ids or e-mail addresses if there is one:
+    /// names and orders the submissions, and tells who handed in nothing
     #[arg(long, value_name = "FILE.csv")]
     roster: Option<PathBuf>,
     /// Number the submissions in place of names, to show the grades around
@@ -108,8 +108,8 @@ impl GradebookArgs {
     }
 }
 
-/// What a student or a course system called the file or folder `name`: its path's end, without what says
-/// that it is a list or a picture.
+/// What a student or a course system called the file or folder `name`: its path's end, without what
+/// says that it is a list or a picture.
 fn last_word(name: &str) -> &str {
     let word = Path::new(name).file_name().and_then(|word| word.to_str()).unwrap_or(name);
     let is_kind = |kind: &str| ["csv", "ply", "png"].contains(&kind.to_lowercase().as_str());

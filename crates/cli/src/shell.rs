@@ -12,7 +12,7 @@ use super::examples::command;
 /// The options of `completions`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Example, for bash: photon-mapping completions bash > ~/.local/share/bash-completion/completions/photon-mapping")]
+Example, for bash: photon-mapping completions bash >> ~/.bash_completion")]
 pub struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]

@@ -1,5 +1,5 @@
-//! The autograder for Gradescope, run as Gradescope runs it: in a root of its own where the system lets
-//! us make one, else in a folder of its own.
+//! The autograder for Gradescope, run as Gradescope runs it: in a root of its own where the system
+//! lets us make one, else in a folder of its own.
 
 mod support;
 
@@ -13,7 +13,8 @@ use serde_json::Value;
 use support::{folder, reference_csv, run_line};
 use tempfile::TempDir;
 
-/// Makes a root around the folder `$1`, which becomes its /autograder, and runs the autograder in it.
+/// Makes a root around the folder `$1`, which becomes its /autograder, and runs the autograder in
+/// it.
 const IN_A_ROOT: &str = r#"
 set -e
 root=$(dirname "$1")/root

@@ -1,5 +1,5 @@
-//! The edition for students: what fails at first, what each section turns green, and that nothing in it
-//! gives the answer away.
+//! The edition for students: what fails at first, what each section turns green, and that nothing
+//! in it gives the answer away.
 
 mod support;
 

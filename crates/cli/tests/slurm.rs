@@ -1,5 +1,5 @@
-//! The Slurm script of docs/large-runs.md, run on a Slurm of one node: with a task that is requeued, the
-//! parts make up the golden list.
+//! The Slurm script of docs/large-runs.md, run on a Slurm of one node: with a task that is
+//! requeued, the parts make up the golden list.
 
 mod support;
 
@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 use support::{folder, run, stdout};
 
-/// What the tests' Slurm is: no accounting, no control groups, programs that run as they are started.
+/// What the tests' Slurm is: no accounting, no control groups, programs that run as they are
+/// started.
 const CONFIGURATION: &str = "\
 ClusterName=one
 SlurmctldHost={host}

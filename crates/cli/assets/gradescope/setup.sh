@@ -1,6 +1,6 @@
 #!/bin/sh
-# Gradescope runs this once, when it builds the image: a C++ compiler, glm, and bubblewrap, which keeps
-# the submissions' programs from reading files.
+# Gradescope runs this once, when it builds the image. bubblewrap keeps the submissions' programs
+# from reading files.
 set -e
 apt-get update
 apt-get install -y --no-install-recommends g++ libglm-dev bubblewrap

@@ -35,7 +35,7 @@ pub fn advice() -> &'static str {
     if cfg!(target_feature = "crt-static") {
         ""
     } else {
-        "note: this program is linked to this system's C library and may not start on an older one; \
-         README.md of the project says how to build a static one\n"
+        "note: this program is linked to this system's C library and may not start on an older \
+         one; README.md of the project says how to build a static one\n"
     }
 }

@@ -1,4 +1,5 @@
-//! A `Cargo.lock` for one package of a larger one, so that a kit builds with the same versions, offline.
+//! A `Cargo.lock` for one package of a larger one, so that a kit builds with the same versions,
+//! offline.
 
 use std::collections::{BTreeMap, BTreeSet};
 

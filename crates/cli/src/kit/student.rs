@@ -1,7 +1,7 @@
 //! The edition for students: the root package with five bodies left to write.
 //!
-//! The port's step comments are the marks. The body of a section goes from its comment to the next one,
-//! or to the end of the function.
+//! The port's step comments are the marks. The body of a section goes from its comment to the next
+//! one, or to the end of the function.
 
 use super::KitFile;
 use super::lock::Lock;
@@ -135,8 +135,8 @@ fn manifest(lock: &Lock) -> String {
     text
 }
 
-/// All tests in one program: `cargo test` stops after the first program that fails, and students want to
-/// see every section.
+/// All tests in one program: `cargo test` stops after the first program that fails, and students
+/// want to see every section.
 fn all_tests() -> String {
     let mut text = String::from("//! The tests of all sections, in one program.\n\n");
     for (path, _) in PORT {
