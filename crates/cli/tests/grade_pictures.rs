@@ -24,7 +24,7 @@ use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use serde_json::Value;
 use support::{folder, json, run_line};
 use variants::hypotheses::fair_readings;
-use variants::variation::{Hemisphere, Roulette, Simulation, Variation};
+use variants::variation::{Emission, Hemisphere, Roulette, Simulation, Variation};
 
 const MILLION: u64 = 1_000_000;
 
@@ -345,7 +345,7 @@ fn two_misreadings_at_once_are_not_one() {
     let cases = [
         Variation { hemisphere: Hemisphere::NoSquareRoot, ..roulette(Roulette::Mean) },
         Variation { hemisphere: Hemisphere::Uniform, ..roulette(Roulette::Mean) },
-        Variation { cube_directions: true, ..roulette(Roulette::Red) },
+        Variation { emission: Emission::Cube, ..roulette(Roulette::Red) },
     ];
     for (at, variation) in cases.into_iter().enumerate() {
         let red = simulate(variation, 90, MILLION, 0.0);

@@ -1,11 +1,13 @@
 //! Photons straight from the light, by where photons lie.
 
 use super::facts::straight_from_the_light;
-use super::judge_list::{Expectations, LEEWAY};
+use super::judge_list::Expectations;
 use super::observation::Observation;
 use super::signature::{Signature, classes};
 use super::statistics::towards;
+use super::trial::LEEWAY;
 use super::verdict::{Finding, Weight};
+use variants::variation::Variation;
 
 /// So many standard deviations apart are the counts with such photons and without, at least, before the counts
 /// decide: each half is far out in either tail.
@@ -57,8 +59,9 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
     };
     let misreadings = expectations.misreadings.iter().zip(&signatures.misreadings);
     // What gets below surfaces shows beneath the boxes.
+    let is_indirect = |variation: &Variation| !variation.stores_direct() && !variation.goes_below();
     let indirect = misreadings
-        .filter(|(hypothesis, _)| !["direct-stored", "flipped-normal"].contains(&hypothesis.id))
+        .filter(|(hypothesis, _)| is_indirect(&hypothesis.variation))
         .map(|(_, signature)| signature);
     let indirect: Vec<_> = signatures.fair.iter().chain(indirect).collect();
     (0..places.facets.len()).find_map(|class| {

@@ -60,7 +60,8 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} are not", of_all(counts.not_finite, records)),
             counts.not_finite == 0.0,
             Weight::Grave,
-            "Look for a vector of length 0 that is normalised: t where the normal is (-1, 0, 0).",
+            "Look for what makes numbers that are not finite: a division by 0, the root of a negative number, or a \
+             vector of length 0 that is normalised.",
         ),
         fact(
             "on surfaces",

@@ -40,4 +40,5 @@ pub mod statistics;
 pub mod submission;
 mod test;
 pub mod text;
+mod trial;
 pub mod verdict;

@@ -1,23 +1,28 @@
 //! Which misreading explains what a submission shows?
 
+use super::bounces::of_each_bounce;
 use super::observation::Observation;
 use super::places::Places;
 use super::signature::{Signature, Signatures, classes};
-use super::statistics::{Fit, Matrix, fit, grouped, towards};
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, no_offset};
+use super::statistics::{Fit, Law, Matrix, Residual, corrected, fit, grouped, towards};
+use super::trial::{LEAST_EXPECTED, LEEWAY, LEEWAY_OF_CELLS};
+use variants::hypotheses::{
+    BOUNCE_OFF_BY_ONE, Hypothesis, no_offset, repeated_paths, stored_twice,
+};
 use variants::pairs::PAIR;
-use variants::reading::TangentBasis;
-use variants::variation::{FACETS, survival_of_facets};
+use variants::variation::{FACETS, Storage, survival_of_facets};
 
-/// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
-/// misreading is not all of it.
-const LEEWAY: f64 = 0.012;
-/// The same for cells, of which a larger part lies along an edge.
-const LEEWAY_OF_CELLS: f64 = 0.03;
-/// Cells are joined until so many photons are expected in each.
-const LEAST_EXPECTED: f64 = 25.0;
-/// A misreading that would show so little as what is seen less often than this explains nothing.
-const LEAST_LIKELY: f64 = 1e-4;
+/// A misreading that would show what is seen, or something stranger, less often than this explains nothing.
+const LEAST_LIKELY: f64 = 3e-3;
+/// By hundreds of planted faults: how much likelier, before a list is seen, all faults that are not in the table are
+/// together than one that is.
+const OUTSIDE: f64 = 3.0;
+/// A name is given when it is as sure as this.
+const SURE: f64 = 0.95;
+/// Nothing is surer than this: there may be mistakes of which nobody has thought.
+const SUREST: f64 = 0.999;
+/// Of identical positions, more than this part of all makes every path a copy of another.
+const ALL_COPIED: f64 = 0.95;
 /// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
 /// misreadings without them explain nothing.
 const MANY_REPEATED: f64 = 0.03;
@@ -105,19 +110,24 @@ pub fn explain(
     let is_short = observation.bounces.is_some_and(|[first, last]| {
         i32::from(last - first) + 1 < max_bounces && max_bounces <= SMALL_LIMIT
     });
+    if let Some(copied) = copied(observation) {
+        return Some(copied);
+    }
     let is_possible = |Hypothesis { id, variation, .. }: &Hypothesis| {
         if *id == "nan-frame" {
             return of_nan > 0.2;
         }
-        let is_below =
-            variation.flipped_normal || variation.reading.tangent_basis == TangentBasis::Transposed;
+        let is_below = variation.goes_below();
         let is_straight = match straight {
-            Some(part) if variation.direct_stored => part > 0.5,
+            Some(part) if variation.stores_direct() => part > 0.5,
             Some(part) => is_below || variation.fewer_bounces > 0 || part < 0.01,
             None => true,
         };
-        let is_long =
-            !is_short || is_below || variation.direct_stored || variation.fewer_bounces > 0;
+        let is_long = !is_short
+            || is_below
+            || variation.storage != Storage::Indirect
+            || variation.most_bounces.is_some()
+            || variation.fewer_bounces > 0;
         of_nan == 0.0 && (is_below || repeated < MANY_REPEATED) && is_straight && is_long
     };
     let comparison = Comparison::new(observation, emitted, places, known.signatures);
@@ -135,11 +145,11 @@ pub fn explain(
         }
         let fit = explain_by_self_hits(observation, emitted, places, known)?;
         let hypothesis = no_offset([0.0; FACETS]);
-        return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
+        return Some(Explanation { hypothesis, fit, confidence: SUREST.min(1.0 - others) });
     }
     if of_nan == 0.0 && !is_short {
         // Photons lost or stored twice all over the scene are no misreading, and neither is what only resembles one.
-        let of_any_number = Comparison { emitted: None, ..comparison };
+        let of_any_number = Comparison { emitted: None, ..comparison.clone() };
         let fair = known.fair.iter().zip(&known.signatures.fair);
         candidates.extend(
             fair.map(|(reading, signature)| {
@@ -147,7 +157,17 @@ pub fn explain(
             }),
         );
     }
-    most_likely(candidates)
+    most_likely(candidates, |best| comparison.elsewhere(best, known))
+}
+
+/// What made every photon come more than once, to the last bit.
+fn copied(observation: &Observation) -> Option<Explanation> {
+    let copies = observation.copies?;
+    let fit = Fit { distance: 0.0, degrees: 0, p_value: 1.0, log_likelihood: 0.0, emitted: 0.0 };
+    let hypothesis =
+        if copies.side_by_side > ALL_COPIED { stored_twice() } else { repeated_paths() };
+    let confidence = SUREST;
+    (copies.all > ALL_COPIED).then_some(Explanation { hypothesis, fit, confidence })
 }
 
 /// Whether photons at the same place are there because rays start below the surface: by rounding, or since they come from
@@ -162,7 +182,11 @@ fn shows_self_hits(observation: &Observation) -> bool {
 }
 
 /// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.
+#[derive(Clone)]
 struct Comparison<'a> {
+    observation: &'a Observation,
+    places: &'a Places,
+    max_bounces: i32,
     emitted: Option<f64>,
     of_classes: Vec<f64>,
     of_cells: Vec<f64>,
@@ -172,9 +196,9 @@ struct Comparison<'a> {
 
 impl<'a> Comparison<'a> {
     fn new(
-        observation: &Observation,
+        observation: &'a Observation,
         emitted: Option<f64>,
-        places: &Places,
+        places: &'a Places,
         signatures: &'a Signatures,
     ) -> Self {
         let of_classes = classes(&observation.counts, places);
@@ -184,6 +208,9 @@ impl<'a> Comparison<'a> {
         let groups = places.joined_cells(&reference.cells, size, LEAST_EXPECTED);
         let count = groups.iter().max().map_or(0, |last| last + 1);
         Self {
+            observation,
+            places,
+            max_bounces: signatures.max_bounces,
             emitted,
             of_classes,
             of_cells: grouped(&observation.counts.cells, &groups, count),
@@ -192,14 +219,50 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smaller of both p-values.
+    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smallest p-value, with regard
+    /// to their number.
     fn fit(&self, signature: &Signature) -> Fit {
         let by_class = fit(&self.of_classes, &signature.law_of_classes(LEEWAY), self.emitted);
-        let (groups, count) = &self.groups;
-        let law = signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count);
-        let by_cell = fit(&self.of_cells, &law, self.emitted);
-        let p_value = by_class.p_value.min(by_cell.p_value);
+        let by_cell = fit(&self.of_cells, &self.law_of_cells(signature), self.emitted);
+        let size = by_class.emitted;
+        let allowed = usize::try_from(self.max_bounces).unwrap_or(0);
+        let of_bounces = self.observation.by_bounce.as_ref().map(|by_bounce| {
+            of_each_bounce(by_bounce, allowed, size, Some(size), signature, self.places)
+        });
+        let p_values = [Some(by_class.p_value), Some(by_cell.p_value), of_bounces];
+        let smallest = p_values.into_iter().flatten().fold(1.0, f64::min);
+        let p_value = corrected(smallest, p_values.iter().flatten().count());
         Fit { p_value, log_likelihood: by_cell.log_likelihood, ..by_class }
+    }
+
+    fn law_of_cells(&self, signature: &Signature) -> Law {
+        let (groups, count) = &self.groups;
+        signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count)
+    }
+
+    /// The evidence for something that is not in the table, beside `best`: between it and another hypothesis, or
+    /// with another part of paths of each length.
+    fn elsewhere(&self, best: &Explanation, known: Known) -> f64 {
+        let (groups, count) = &self.groups;
+        let all = || {
+            let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
+            known.misreadings.iter().chain(known.pairs).zip(signatures)
+        };
+        let is_best = |hypothesis: &Hypothesis| hypothesis.key() == best.hypothesis.key();
+        let Some((_, signature)) = all().find(|(hypothesis, _)| is_best(hypothesis)) else {
+            return 0.0;
+        };
+        let law = self.law_of_cells(signature);
+        let others = all().filter(|(other, _)| other.id != best.hypothesis.id);
+        let fair = known.signatures.fair.iter();
+        let others = others.map(|(_, signature)| signature).chain(fair);
+        let of_cells = Residual::new(&self.of_cells, &law, self.emitted)
+            .elsewhere(others.map(|other| grouped(&other.cells, groups, *count)));
+        let law = signature.law_of_classes(LEEWAY);
+        let lengths = signature.by_bounce.iter();
+        let with_more = lengths.map(|more| law.mean.iter().zip(more).map(|(a, b)| a + b).collect());
+        let of_lengths = Residual::new(&self.of_classes, &law, self.emitted).elsewhere(with_more);
+        0.5 * (of_cells + of_lengths)
     }
 }
 
@@ -282,11 +345,16 @@ fn loses_what_self_hits_lose(
     (left / lost - 1.0).abs() < LEEWAY_OF_LOSS + by_chance
 }
 
-/// The likeliest of `candidates`, if it explains what is seen, and no other does as well.
-pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
+/// The likeliest of `candidates`, if it explains what is seen, and neither another one does as well nor something that is
+/// not in the table: `elsewhere` has the evidence for that, beside the best.
+pub(super) fn most_likely(
+    mut candidates: Vec<Explanation>,
+    elsewhere: impl Fn(&Explanation) -> f64,
+) -> Option<Explanation> {
     candidates.sort_by(|a, b| b.fit.log_likelihood.total_cmp(&a.fit.log_likelihood));
     let best = candidates.first()?.clone();
-    if best.fit.p_value < LEAST_LIKELY {
+    let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
+    if best.fit.p_value < LEAST_LIKELY || is_fair {
         return None;
     }
     // Ways to the same misreading do not compete with each other.
@@ -298,7 +366,7 @@ pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanatio
             sum += (other.fit.log_likelihood - best.fit.log_likelihood).exp();
         }
     }
-    let confidence = 1.0 / sum;
-    let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
-    (confidence > 0.95 && !is_fair).then_some(Explanation { confidence, ..best })
+    sum += OUTSIDE * elsewhere(&best);
+    let confidence = (1.0 / sum).min(SUREST);
+    (confidence > SURE).then_some(Explanation { confidence, ..best })
 }

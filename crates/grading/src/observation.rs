@@ -1,6 +1,6 @@
 //! What a list of photons shows: counted by place, and looked over for what cannot be right.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::crowding::crowding;
 use super::places::{Place, Places};
@@ -100,6 +100,15 @@ impl ToLight {
     }
 }
 
+/// Positions that come more than once, to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Copies {
+    /// The part of the photons that lie where another one does.
+    pub all: f64,
+    /// Of these, the part that has one of its copies beside it in the list.
+    pub side_by_side: f64,
+}
+
 /// What a list shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -111,6 +120,8 @@ pub struct Observation {
     pub repeated: f64,
     /// How many lie where another one does to the last bit; nothing where that may come from rounding.
     pub identical: Option<f64>,
+    /// The same by their order in the list.
+    pub copies: Option<Copies>,
     /// Whether most of those that are repeated lie where another one does up to the rounding of an f32, and
     /// positions have enough decimals to tell.
     pub repeats_by_rounding: bool,
@@ -195,6 +206,7 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         records: list.records.len() as u64,
         repeated: count(Repeat::Closely) + count(Repeat::ByRounding) + identical,
         repeats_by_rounding,
+        copies: decimals.is_none().then(|| copies(&list.records)),
         crowding: crowding(&on_facets, unit),
         gaps,
         identical: decimals.is_none().then_some(identical),
@@ -206,6 +218,19 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         to_light: list.columns.to_light.then(|| directions(&list.records, &located, places, light)),
         by_bounce,
         bounces,
+    }
+}
+
+fn copies(records: &[PhotonRecord]) -> Copies {
+    let bits = |record: &PhotonRecord| record.position.to_array().map(f32::to_bits);
+    let mut counts = HashMap::new();
+    records.iter().for_each(|record| *counts.entry(bits(record)).or_insert(0_u32) += 1);
+    let all = records.iter().filter(|record| counts[&bits(record)] > 1).count() as f64;
+    let runs = records.chunk_by(|a, b| bits(a) == bits(b)).map(<[_]>::len);
+    let side_by_side: usize = runs.filter(|length| *length > 1).sum();
+    Copies {
+        all: all / records.len().max(1) as f64,
+        side_by_side: side_by_side as f64 / all.max(1.0),
     }
 }
 

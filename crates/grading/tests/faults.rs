@@ -14,7 +14,7 @@ use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use variants::hypotheses::no_offset;
-use variants::variation::{Simulation, Variation};
+use variants::variation::{Simulation, Storage, Variation};
 
 const EMITTED: u64 = 200_000;
 
@@ -139,7 +139,7 @@ fn bounces_that_contradict_the_scene_are_a_fault() {
 
 #[test]
 fn a_limit_of_the_program_s_own_is_a_fault() {
-    let most_bounces = Variation { most_bounces: 5, ..Variation::default() };
+    let most_bounces = Variation { most_bounces: Some(5), ..Variation::default() };
     let short = records(most_bounces, 71, EMITTED);
     assert_eq!(faults_of_paths(short, PATHS), ["longest path"]);
 }
@@ -173,7 +173,7 @@ fn an_intensity_divided_twice_costs_nothing() {
 fn photons_that_go_up_are_not_called_direct() {
     // As from a light that shines upward: what is stored by way of the ceiling and the walls.
     let columns = Columns { to_light: true, ..Columns::default() };
-    let all = records(Variation { direct_stored: true, ..Variation::default() }, 74, EMITTED);
+    let all = records(Variation { storage: Storage::All, ..Variation::default() }, 74, EMITTED);
     let light = create_scene().lights()[0].position;
     let goes_up = |path: &[PhotonRecord]| path[0].position.z > light.z;
     let paths = all.chunk_by(|a, b| a.photon == b.photon).filter(|path| goes_up(path));

@@ -21,7 +21,7 @@ use photon_mapping::random::photon_random;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset, to_the_letter};
 use variants::pairs::pairs;
 use variants::reading::Reading;
-use variants::variation::{Hemisphere, Roulette, Simulation, Variation};
+use variants::variation::{Hemisphere, Roulette, Simulation, Storage, Variation};
 
 const EMITTED: u64 = 200_000;
 
@@ -531,7 +531,7 @@ fn no_name_is_given_that_the_number_contradicts() {
     let both = [
         Variation { roulette: Roulette::Mean, ..no_offset.variation },
         Variation { roulette: Roulette::Red, ..no_offset.variation },
-        Variation { direct_stored: true, ..no_offset.variation },
+        Variation { storage: Storage::All, ..no_offset.variation },
         Variation { roulette: Roulette::Mean, ..without_root },
         Variation { roulette: Roulette::Red, ..without_root },
     ];
@@ -541,7 +541,7 @@ fn no_name_is_given_that_the_number_contradicts() {
         assert!(is_incorrect(&judgement), "{of_both:?}");
         assert_eq!(name(&judgement), None, "{of_both:?}");
         // Self-hits, of which the tops of the boxes have many, are not direct.
-        assert!(!says_direct(&judgement) || of_both.direct_stored, "{of_both:?}");
+        assert!(!says_direct(&judgement) || of_both.stores_direct(), "{of_both:?}");
     }
     // As rounding has it.
     let reading = Reading { offset: Offset::AlongNormal(0.0), ..Reading::REFERENCE };
@@ -717,14 +717,14 @@ fn photons_straight_from_the_light_are_seen_by_their_direction() {
     let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
     assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
     // Where all are stored, that is the name, alone or with another one.
-    let direct = Variation { direct_stored: true, ..Variation::default() };
+    let direct = Variation { storage: Storage::All, ..Variation::default() };
     let judged = |variation| {
         let all = observed(records(variation, 87, EMITTED), columns);
         judge(&all, None, false, &EXPECTATIONS)
     };
     assert_eq!(name(&judged(direct)), Some("direct-stored"));
     let pair = judged(Variation { roulette: Roulette::Mean, ..direct }).pair.expect("two at once");
-    assert!(pair.hypothesis.variation.direct_stored, "{}", pair.hypothesis.title);
+    assert!(pair.hypothesis.variation.stores_direct(), "{}", pair.hypothesis.title);
 }
 
 #[test]
@@ -746,7 +746,7 @@ fn directions_that_the_photons_contradict_cost_nothing() {
 
 #[test]
 fn a_few_photons_straight_from_the_light_are_found() {
-    let with_direct = Variation { direct_stored: true, ..Variation::default() };
+    let with_direct = Variation { storage: Storage::All, ..Variation::default() };
     let mut rand = photon_random(80, 80);
     let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     let is_straight = |record: &PhotonRecord| {
@@ -768,7 +768,7 @@ fn a_few_photons_straight_from_the_light_are_found() {
 
 #[test]
 fn photons_straight_from_the_light_alone_are_seen_by_their_places() {
-    let with_direct = Variation { direct_stored: true, ..Variation::default() };
+    let with_direct = Variation { storage: Storage::All, ..Variation::default() };
     let mut records = records(with_direct, 81, EMITTED);
     let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     records

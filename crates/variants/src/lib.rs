@@ -3,11 +3,14 @@
 //! [`run::Run`] is what the toolkit traces. Where it is the reference, the port or the fast path does it.
 
 pub mod hypotheses;
+pub mod misreadings;
 pub mod pairs;
 pub mod reading;
 pub mod run;
 pub mod sampler;
+pub mod sampling;
 pub mod section;
+pub mod simulation;
 mod sobol;
 pub mod tracer;
 pub mod variation;

@@ -8,7 +8,7 @@ use super::words::{self, LEAST_EMITTED};
 use crate::judge_list::{SIGNIFICANCE, alone_or_pair, two_at_once};
 use crate::naming::{Explanation, bounces_show, most_likely};
 use crate::statistics::{
-    Fit, Law, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
+    Fit, Law, Residual, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
 };
 use crate::verdict::{Finding, Weight};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
@@ -155,7 +155,7 @@ fn judge_pattern(case: Case) -> PictureJudgement {
             let unexplained = pair
                 .as_ref()
                 .map_or(words::UNEXPLAINED.into(), |pair| two_at_once(&pair.hypothesis));
-            test.finding(trial.tests.len(), expected, explanation.as_ref(), unexplained)
+            test.finding(expected, explanation.as_ref(), unexplained)
         })
         .collect();
     if case.emitted.is_none() {
@@ -300,6 +300,7 @@ impl Case<'_> {
         });
 
         let mut farthest: f64 = 0.0;
+        let residual = Residual::new(&of_groups, &law, Some(1.0));
         let all = expected.mean.iter().sum::<f64>();
         for other in &expectations.signatures.misreadings {
             // Where the number is not known, as many photons as leave about as many dots.
@@ -309,7 +310,7 @@ impl Case<'_> {
             };
             let other = means(view, other, other_size, &coverage);
             let other = grouped(&other, &groups.0, groups.1);
-            farthest = farthest.max(towards(&of_groups, &law, &other, Some(1.0)));
+            farthest = farthest.max(residual.towards(&other).0);
         }
         tests.push(Test {
             check: "known misreadings",
@@ -319,8 +320,17 @@ impl Case<'_> {
             found: format!("{farthest:.1} standard deviations on the way to one of them"),
         });
 
-        let smallest = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
-        let p_value = corrected(smallest, tests.len());
+        let count = tests.len();
+        tests.iter_mut().for_each(|test| test.p_value = corrected(test.p_value, count));
+        if self.emitted.is_some() {
+            // What is rejected without the number is rejected with it.
+            let of_any_number = Self { emitted: None, ..*self }.attempt(reading, standoff);
+            for test in &mut tests {
+                let other = of_any_number.tests.iter().find(|other| other.check == test.check);
+                test.p_value = other.map_or(1.0, |other| other.p_value).min(test.p_value);
+            }
+        }
+        let p_value = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
         Trial { reading, standoff, tests, p_value, emitted: size, groups }
     }
 
@@ -397,8 +407,36 @@ impl Case<'_> {
         let fair = fair
             .filter(|_| self.emitted.is_some())
             .map(|(reading, signature)| of_any_number.hold_against(reading, signature, groups));
-        most_likely(candidates.chain(fair).collect())
+        let outside = |best: &Explanation| self.elsewhere(best, groups);
+        most_likely(candidates.chain(fair).collect(), outside)
             .filter(|it| it.hypothesis.id == "no-offset" || it.fit.p_value >= LEAST_LIKELY)
+    }
+
+    /// The evidence for something that is not in the table, beside `best`.
+    fn elsewhere(&self, best: &Explanation, (groups, count): (&[usize], usize)) -> f64 {
+        let PictureExpectations { misreadings, pairs, signatures, .. } = self.expectations;
+        let known = || {
+            let signatures = signatures.misreadings.iter().chain(&signatures.pairs);
+            misreadings.iter().chain(pairs).zip(signatures)
+        };
+        let is_best = |hypothesis: &Hypothesis| hypothesis.key() == best.hypothesis.key();
+        let Some((_, signature)) = known().find(|(hypothesis, _)| is_best(hypothesis)) else {
+            return 0.0;
+        };
+        let at_rest = vec![1.0; self.view.facets.len()];
+        let (size, counts) = (best.fit.emitted, grouped(self.counts, groups, count));
+        let expected = Expected::new(self.view, signature, size, &at_rest);
+        let law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
+        let residual = Residual::new(&counts, &law, Some(1.0));
+        let all: f64 = expected.mean.iter().sum();
+        let others = known().filter(|(other, _)| other.id != best.hypothesis.id);
+        residual.elsewhere(others.map(|(_, other)| {
+            let size = match self.emitted {
+                Some(emitted) => emitted,
+                None => size * all / total(self.view, other, size, &at_rest).max(1.0),
+            };
+            grouped(&means(self.view, other, size, &at_rest), groups, count)
+        }))
     }
 
     /// How well `hypothesis` explains the picture, whose cells are joined into `groups`, so many of them.
