@@ -7,7 +7,7 @@ use super::signature::{Signature, classes};
 use super::statistics::towards;
 use super::trial::LEEWAY;
 use super::verdict::{Finding, Weight};
-use variants::variation::Variation;
+use variants::variation::{Emission, Variation};
 
 /// So many standard deviations apart are the counts with such photons and without, at least, before the counts
 /// decide: each half is far out in either tail.
@@ -59,7 +59,12 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
     };
     let misreadings = expectations.misreadings.iter().zip(&signatures.misreadings);
     // What gets below surfaces shows beneath the boxes.
-    let is_indirect = |variation: &Variation| !variation.stores_direct() && !variation.goes_below();
+    // Other ways to leave the light are told by the facets that they leave in the dark.
+    let is_indirect = |variation: &Variation| {
+        !variation.stores_direct()
+            && !variation.goes_below()
+            && [Emission::Sphere, Emission::Cube].contains(&variation.emission)
+    };
     let indirect = misreadings
         .filter(|(hypothesis, _)| is_indirect(&hypothesis.variation))
         .map(|(_, signature)| signature);

@@ -90,7 +90,10 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
             !is_repeated && !is_identical,
             Weight::Fault,
-            if observation.repeats_by_rounding || observation.identical.is_none() {
+            if is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5) {
+                "Whole paths come again: check that the generator is seeded once for the whole run, and \
+                 that threads do not share a seed."
+            } else if observation.repeats_by_rounding || observation.identical.is_none() {
                 "Scattered rays hit the triangle they leave: start them a little above the surface, or \
                  check that no photon is inserted twice."
             } else {

@@ -15,7 +15,7 @@ use super::signature::{Signature, Signatures};
 use super::trial::best_trial;
 use super::verdict::Finding;
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
-use variants::pairs::pairs;
+use variants::pairs::unnamed;
 
 /// A submission that is as strange as this by chance alone is called incorrect. Of ten thousand
 /// submissions that are correct, one may be; a tenth of that leaves room for what the tests assume.
@@ -59,7 +59,7 @@ impl Expectations {
             signatures,
             fair: fair_readings(),
             misreadings: misreadings(),
-            pairs: pairs(),
+            pairs: unnamed(),
             pictures: OnceLock::new(),
         }
     }
@@ -156,6 +156,16 @@ pub fn judge(
     let is_told = of_columns.iter().chain(&findings).any(Finding::is_fault);
     if is_off && explanation.is_none() && pair.is_none() && !is_told {
         findings.extend(shows_direct(observation, expectations));
+    }
+    if let Some(misreading) = explanation.as_ref().and_then(|it| it.hypothesis.misreading) {
+        // What a name explains has that name's advice.
+        let is_explained = |finding: &&mut Finding| {
+            finding.is_fault() && ["finite", "footprints", "same place"].contains(&finding.check)
+        };
+        findings
+            .iter_mut()
+            .filter(is_explained)
+            .for_each(|finding| finding.advice = misreading.advice.into());
     }
     let shows_plainly = findings.iter().any(Finding::is_fault);
     let reading = expectations.fair[trial.reading].clone();

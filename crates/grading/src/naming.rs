@@ -7,16 +7,20 @@ use super::signature::{Signature, Signatures, classes};
 use super::statistics::{Fit, Law, Matrix, Residual, corrected, fit, grouped, towards};
 use super::trial::{LEAST_EXPECTED, LEEWAY, LEEWAY_OF_CELLS};
 use variants::hypotheses::{
-    BOUNCE_OFF_BY_ONE, Hypothesis, no_offset, repeated_paths, stored_twice,
+    BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, no_offset, repeated_paths, stored_twice,
 };
-use variants::pairs::PAIR;
+use variants::pairs::{OTHER_ROULETTE, PAIR};
 use variants::variation::{FACETS, Storage, survival_of_facets};
 
 /// A misreading that would show what is seen, or something stranger, less often than this explains nothing.
 const LEAST_LIKELY: f64 = 3e-3;
+/// The same of self-hits, whose law is only roughly known.
+const SELF_HITS_LEAST: f64 = 1e-4;
+/// One that is as rare as this is ruled out, whatever its cells say.
+const RULED_OUT: f64 = 1e-9;
 /// By hundreds of planted faults: how much likelier, before a list is seen, all faults that are not in the table are
 /// together than one that is.
-const OUTSIDE: f64 = 3.0;
+const OUTSIDE: f64 = 0.01;
 /// A name is given when it is as sure as this.
 const SURE: f64 = 0.95;
 /// Nothing is surer than this: there may be mistakes of which nobody has thought.
@@ -40,9 +44,12 @@ const MOST_FIRST_HITS: f64 = 0.5;
 /// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
 const LEEWAY_OF_LOSS: f64 = 0.12;
 
-/// The logarithm of how much rarer two misreadings at once are than one of them, and photons that are right but for their
-/// number.
-const RARER: f64 = -6.0;
+/// The logarithm of how much rarer than one misreading of the table two of them at once are.
+const RARER_PAIR: f64 = -6.0;
+/// The same of each roulette that has no name.
+const RARER_ROULETTE: f64 = -3.0;
+/// The same of photons that are right but for their number.
+const RARER_NUMBER: f64 = -2.0;
 
 /// A misreading that explains a submission, or two at once.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,9 +65,12 @@ pub struct Explanation {
 impl Explanation {
     /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with all others'.
     pub(super) fn new(hypothesis: &Hypothesis, mut fit: Fit) -> Self {
-        if hypothesis.misreading.is_none() {
-            fit.log_likelihood += RARER;
-        }
+        fit.log_likelihood += match hypothesis.id {
+            PAIR => RARER_PAIR,
+            OTHER_ROULETTE => RARER_ROULETTE,
+            FAIR => RARER_NUMBER,
+            _ => 0.0,
+        };
         Self { hypothesis: hypothesis.clone(), fit, confidence: 0.0 }
     }
 
@@ -351,10 +361,12 @@ pub(super) fn most_likely(
     mut candidates: Vec<Explanation>,
     elsewhere: impl Fn(&Explanation) -> f64,
 ) -> Option<Explanation> {
+    candidates.retain(|candidate| candidate.fit.p_value >= RULED_OUT);
     candidates.sort_by(|a, b| b.fit.log_likelihood.total_cmp(&a.fit.log_likelihood));
     let best = candidates.first()?.clone();
     let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
-    if best.fit.p_value < LEAST_LIKELY || is_fair {
+    let least = if best.hypothesis.id == "no-offset" { SELF_HITS_LEAST } else { LEAST_LIKELY };
+    if best.fit.p_value < least || is_fair {
         return None;
     }
     // Ways to the same misreading do not compete with each other.

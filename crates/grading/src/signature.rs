@@ -12,7 +12,7 @@ use super::statistics::{Law, Matrix};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, fair_readings, misreadings};
-use variants::pairs::{PAIR, pairs};
+use variants::pairs::{PAIR, unnamed};
 use variants::reading::Reading;
 use variants::variation::Simulation;
 
@@ -52,7 +52,7 @@ pub struct Signatures {
     pub fair: Vec<Signature>,
     /// For [`misreadings`], in their order.
     pub misreadings: Vec<Signature>,
-    /// For [`pairs`], in their order.
+    /// For [`unnamed`], in their order.
     pub pairs: Vec<Signature>,
     /// How the numbers of photons in two cells go together under the reference: their correlation.
     pub correlation: Matrix,
@@ -137,7 +137,7 @@ impl Kept {
             self.correlation = correlate(&of_cells);
             self.of.insert(reference.key(), signature);
         }
-        let all = [fair_readings(), misreadings(), pairs()].concat();
+        let all = [fair_readings(), misreadings(), unnamed()].concat();
         let missing = all.par_iter().filter(|it| !self.of.contains_key(&it.key()));
         let measured: Vec<_> = missing.map(|it| (it.key(), measure(it).0)).collect();
         self.of.extend(measured);
@@ -170,7 +170,7 @@ impl Signatures {
             max_bounces,
             fair: take(fair_readings()),
             misreadings: take(misreadings()),
-            pairs: take(pairs()),
+            pairs: take(unnamed()),
             correlation,
         }
     }

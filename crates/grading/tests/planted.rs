@@ -39,7 +39,7 @@ fn steps() -> Vec<(&'static str, Variation)> {
     vec![
         ("P_r + 0.2", roulette(Roulette::Shifted(0.2))),
         ("P_r - 0.25", roulette(Roulette::Shifted(-0.25))),
-        ("P_r = (r + g) / 2", roulette(Roulette::Weighted([0.5, 0.5, 0.0]))),
+        ("P_r = 0.6 and 0.45, by material", roulette(Roulette::ByMaterial([0.6, 0.45]))),
         ("P_r = r + g + b", roulette(Roulette::Weighted([1.0, 1.0, 1.0]))),
         ("P_r = g / 2", roulette(Roulette::Weighted([0.0, 0.5, 0.0]))),
         ("P_r = r + b", roulette(Roulette::Weighted([1.0, 0.0, 1.0]))),
@@ -109,11 +109,6 @@ fn numbers() -> Vec<(&'static str, fn(&mut dyn FnMut() -> f32) -> f32)> {
 }
 
 fn records() -> Vec<(&'static str, fn(Vec<PhotonRecord>) -> Vec<PhotonRecord>)> {
-    let every = |records: Vec<PhotonRecord>, is_kept: &dyn Fn(usize, &PhotonRecord) -> bool| {
-        let numbered = records.into_iter().enumerate();
-        numbered.filter(|(at, it)| is_kept(*at, it)).map(|(_, it)| it).collect()
-    };
-    let _ = every;
     vec![
         ("a third lost", |records| {
             records.into_iter().enumerate().filter(|it| it.0 % 3 > 0).map(|it| it.1).collect()
@@ -122,7 +117,7 @@ fn records() -> Vec<(&'static str, fn(Vec<PhotonRecord>) -> Vec<PhotonRecord>)> 
             records.into_iter().filter(|it| !(3..8).contains(&it.surface)).collect()
         }),
         ("half of the wall", |records| {
-            records.into_iter().filter(|it| it.surface != 1 || it.position.z < 0.9).collect()
+            records.into_iter().filter(|it| it.position.x < 0.99 || it.position.z < 0.9).collect()
         }),
         ("left and right turned", |mut records| {
             records.iter_mut().for_each(|it| it.position.y = -it.position.y);

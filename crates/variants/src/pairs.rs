@@ -34,6 +34,38 @@ pub fn can_be_of_two() -> Vec<Hypothesis> {
     COMMON.into_iter().filter_map(first).collect()
 }
 
+/// The name of all roulettes that have none, for programs.
+pub const OTHER_ROULETTE: &str = "other-roulette";
+
+/// Roulettes that are no misreading of the table: a grid of the chances of the scene's two diffuse responses. They
+/// are there so that no roulette is named for one that only resembles it.
+fn other_roulettes() -> Vec<Hypothesis> {
+    let mut all = Vec::new();
+    for bright in 3..=10_u8 {
+        for dark in (0..10_u8).filter(|dark| *dark != bright) {
+            let chances = [bright, dark].map(|tenths| f32::from(tenths) / 10.0);
+            all.push(Hypothesis {
+                id: OTHER_ROULETTE,
+                title: format!(
+                    "photons survive with {} or {}, by material",
+                    chances[0], chances[1]
+                ),
+                misreading: None,
+                variation: Variation {
+                    roulette: Roulette::ByMaterial(chances),
+                    ..Variation::default()
+                },
+            });
+        }
+    }
+    all
+}
+
+/// All that no name of the table tells: two misreadings at once, and other roulettes.
+pub fn unnamed() -> Vec<Hypothesis> {
+    [pairs(), other_roulettes()].concat()
+}
+
 /// Pairs of misreadings that can be made together.
 pub fn pairs() -> Vec<Hypothesis> {
     let singles = can_be_of_two();

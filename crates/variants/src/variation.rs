@@ -9,6 +9,8 @@ pub use crate::simulation::{Simulation, survival_of_facets};
 
 /// How many facets the assignment's scene has.
 pub const FACETS: usize = 12;
+/// A number for each of them. Of [`FACETS`], the compiler loses its way in closures that capture it.
+pub type PerFacet = [f32; 12];
 
 /// What decides whether a photon is scattered.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,6 +36,8 @@ pub enum Roulette {
     Inverted,
     /// This chance, on every material; with 1, every photon is scattered.
     Constant(f32),
+    /// These chances, on materials of which the red is above a half, and on others.
+    ByMaterial([f32; 2]),
 }
 
 impl Roulette {
@@ -51,6 +55,13 @@ impl Roulette {
             Self::Signed => 0.5 + 0.5 * largest,
             Self::Inverted => 1.0 - largest,
             Self::Constant(chance) => chance,
+            Self::ByMaterial([bright, dark]) => {
+                if diffuse.x > 0.5 {
+                    bright
+                } else {
+                    dark
+                }
+            }
         };
         chance.clamp(0.0, 1.0)
     }
@@ -154,7 +165,7 @@ pub struct Variation {
     /// How often a photon may bounce at most, if not as often as allowed.
     pub most_bounces: Option<i32>,
     /// For each facet, the part of its scattered photons that meet it again, by rounding.
-    pub self_hits: [f32; FACETS],
+    pub self_hits: PerFacet,
 }
 
 impl Variation {

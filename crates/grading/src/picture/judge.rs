@@ -426,7 +426,7 @@ impl Case<'_> {
         let at_rest = vec![1.0; self.view.facets.len()];
         let (size, counts) = (best.fit.emitted, grouped(self.counts, groups, count));
         let expected = Expected::new(self.view, signature, size, &at_rest);
-        let law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
+        let law = self.law_of_misreading(&best.hypothesis, &expected, (groups, count));
         let residual = Residual::new(&counts, &law, Some(1.0));
         let all: f64 = expected.mean.iter().sum();
         let others = known().filter(|(other, _)| other.id != best.hypothesis.id);
@@ -450,19 +450,30 @@ impl Case<'_> {
         let at_rest = vec![1.0; self.view.facets.len()];
         let size = self.emitted.unwrap_or_else(|| self.fit_size(signature, &at_rest));
         let expected = Expected::new(self.view, signature, size, &at_rest);
-        let mut law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
-        if hypothesis.id == "no-offset" {
-            for facet in 0..self.view.facets.len() {
-                let way = self.slope_of_facet(&expected, facet);
-                let way = grouped(&way, groups, count);
-                loosen(&mut law, &way, LEEWAY_OF_SELF_HITS);
-            }
-        }
+        let law = self.law_of_misreading(hypothesis, &expected, (groups, count));
         let mut fit = fit(&counts, &law, Some(1.0));
         fit.degrees -= usize::from(self.emitted.is_none());
         fit.p_value = chi_squared_tail(fit.distance, fit.degrees);
         fit.emitted = size;
         Explanation::new(hypothesis, fit)
+    }
+
+    /// The law of groups of cells under a misreading, of which the student's program may have another form.
+    fn law_of_misreading(
+        &self,
+        hypothesis: &Hypothesis,
+        expected: &Expected,
+        (groups, count): (&[usize], usize),
+    ) -> Law {
+        let at_rest = vec![1.0; self.view.facets.len()];
+        let mut law = self.law(expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
+        if hypothesis.id == "no-offset" {
+            for facet in 0..self.view.facets.len() {
+                let way = grouped(&self.slope_of_facet(expected, facet), groups, count);
+                loosen(&mut law, &way, LEEWAY_OF_SELF_HITS);
+            }
+        }
+        law
     }
 }
 
