@@ -25,7 +25,7 @@ use grading::submission::{Settings, grade};
 use grading::text;
 use grading::verdict::Grade;
 use photon_mapping::assignment8;
-use variants::hypotheses::misreadings;
+use variants::misreadings::names;
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
 const MANY_BOUNCES: i32 = 20;
@@ -277,10 +277,7 @@ fn policy(arguments: &GradeArgs) -> Result<Policy, CliError> {
             "'{name}' is {score}, which is not from 0 to 'correct', {best}"
         )));
     }
-    let mut known: Vec<&str> = misreadings().iter().map(|hypothesis| hypothesis.id).collect();
-    known.push("no-offset");
-    known.sort_unstable();
-    known.dedup();
+    let known = names();
     match policy.misreadings.keys().find(|id| !known.contains(&id.as_str())) {
         Some(id) => {
             let known = known.join(", ");

@@ -18,12 +18,12 @@ use rayon::prelude::*;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::pairs;
 use variants::reading::{Reading, TangentBasis};
-use variants::variation::{FACETS, Simulation, Variation};
+use variants::variation::{FACETS, Frame, Simulation, Variation};
 
 /// What a list tells besides positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// Nothing, and the number of photons sent out is not known.
+    /// Nothing, and the number of photons emitted is not known.
     PositionsAlone,
     /// Nothing, but the course knows the number.
     PositionsAndNumber,
@@ -82,11 +82,11 @@ fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expe
     println!("## Correct submissions called incorrect\n");
     println!(
         "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to 1e-3 along \
-         the new direction, positions up to 0.007 off their surface, two generators, with and without the \
+         the new direction, left-handed frames, positions up to 0.007 off their surface, three generators (one of 15 bits), with and without the \
          number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a list, corrected for the number of tests; below \
          {SIGNIFICANCE:.0e} it is called incorrect.\n"
     );
-    println!("| sent out | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
+    println!("| emitted | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
     println!("|---|---|---|---|---|---|");
     let mut all = [0; 5];
     for (decade, (low, high, count, expectations)) in decades.into_iter().enumerate() {
@@ -132,14 +132,18 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
             _ => Offset::AlongDirection(settings.between(1e-5, 1e-3) as f32),
         },
     };
-    let variation = Variation { reading, ..Variation::default() };
+    // A left-handed frame is as good.
+    let frame = settings.one_of(&[Frame::AsRead, Frame::AsRead, Frame::Columns([1, 0, 2])]);
+    let variation = Variation { reading, frame, ..Variation::default() };
     let max_bounces = expectations.signatures.max_bounces;
     let simulation = Simulation::new(variation, 7_000_000 + index, emitted, max_bounces);
     let other_generator = emitted <= 200_000 && settings.one_of(&[true, false]);
-    let mut records = if other_generator {
-        simulation.trace_with(0..emitted, Drand48::new(index))
-    } else {
-        simulation.trace(0..emitted)
+    let mut records = match other_generator {
+        true if settings.one_of(&[true, false]) => {
+            simulation.trace_with(0..emitted, Drand48::new(index))
+        }
+        true => simulation.trace_with(0..emitted, FifteenBits(index as u32)),
+        false => simulation.trace(0..emitted),
     };
     let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
     shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
@@ -169,6 +173,18 @@ impl Iterator for Drand48 {
     fn next(&mut self) -> Option<f32> {
         self.0 = (self.0.wrapping_mul(0x5_DEEC_E66D).wrapping_add(0xB)) & ((1 << 48) - 1);
         Some((self.0 >> 24) as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+/// A generator of 15 bits, as behind `rand` where `RAND_MAX` is 32767.
+struct FifteenBits(u32);
+
+impl Iterator for FifteenBits {
+    type Item = f32;
+
+    fn next(&mut self) -> Option<f32> {
+        self.0 = self.0.wrapping_mul(214_013).wrapping_add(2_531_011);
+        Some(((self.0 >> 16) & 0x7FFF) as f32 / 32_768.0)
     }
 }
 
@@ -237,12 +253,12 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
     for content in CONTENTS {
         let what = match content {
             Content::PositionsAlone => "positions alone",
-            Content::PositionsAndNumber => "positions, and the number of photons sent out is known",
+            Content::PositionsAndNumber => "positions, and the number of photons emitted is known",
             Content::Everything => "all columns but `photon`",
         };
         println!("## Found and named: {what}\n");
         println!(
-            "{seeds} lists of {EMITTED} photons sent out a row, of all of its variants in turn. Columns: \
+            "{seeds} lists of {EMITTED} photons emitted a row, of all of its variants in turn. Columns: \
              called correct, called incorrect without a name, and named, by number.\n"
         );
         let numbers: Vec<String> = (1..=ids.len()).map(|number| number.to_string()).collect();
@@ -282,7 +298,7 @@ fn two_at_once(seeds: u64, expectations: &Expectations) {
     let (pairs, singles) = (pairs(), misreadings());
     println!("## Two misreadings at once\n");
     println!(
-        "Lists of {EMITTED} photons sent out, of {} pairs of misreadings in turn, which have no name: what was \
+        "Lists of {EMITTED} photons emitted, of {} pairs of misreadings in turn, which have no name: what was \
          told of them.\n",
         pairs.len()
     );

@@ -18,7 +18,7 @@ const PLAINLY: f64 = 5.0;
 const FEWEST: f64 = 50.0;
 
 /// Whether so many photons straight from the light as the directions say are ruled out by the counts, which fit
-/// `emitted` sent out: straight from the light come far more to the tops of the boxes, say, than by a bounce.
+/// `emitted` emitted: straight from the light come far more to the tops of the boxes, say, than by a bounce.
 pub fn is_ruled_out(observation: &Observation, emitted: f64, expectations: &Expectations) -> bool {
     let Some(to_light) = observation.to_light else { return false };
     let (reference, Some(stored)) = (&expectations.signatures.fair[0], with_direct(expectations))

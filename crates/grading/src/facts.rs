@@ -10,7 +10,7 @@ use variants::section::Section;
 
 /// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
 const MOST_REPEATED: f64 = 0.01;
-/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons sent out
+/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons emitted
 /// from all fair offsets, none was, and by chance, with six digits, it is one of ten million photons. A
 /// thousandth is left to programs that round more than the reference.
 const MOST_IDENTICAL: f64 = 1e-3;
@@ -161,16 +161,16 @@ pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> F
     Finding {
         check: "enough photons",
         section: Some(Section::PhotonStorage.title()),
-        expected: format!("the photons of at least {FEW_EMITTED} sent out"),
-        found: format!("{} photons, of about {fitted:.0} sent out", observation.records),
+        expected: format!("the photons of at least {FEW_EMITTED} emitted"),
+        found: format!("{} photons, of about {fitted:.0} emitted", observation.records),
         p_value: None,
         passed,
         weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },
         advice: if passed {
             "".into()
         } else {
-            "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it \
-             sent out fewer, grade with --emitted."
+            "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
+             emitted fewer, grade with --emitted."
                 .into()
         },
     }
@@ -192,7 +192,7 @@ pub fn straight_from_the_light(found: String, passed: bool) -> Finding {
 }
 
 /// What costs nothing, since the handout says that positions are sufficient.
-/// `emitted` is how many photons were sent out by the word of the course, and `is_ruled_out` whether the photons
+/// `emitted` is how many photons were emitted by the word of the course, and `is_ruled_out` whether the photons
 /// lie where those straight from the light do not.
 pub fn remarks(
     observation: &Observation,
@@ -213,7 +213,7 @@ pub fn remarks(
     if observation.has_odd_intensity {
         findings.push(remark(
             "intensity",
-            "one intensity for all: the light's colour divided by the photons sent out",
+            "one intensity for all: the light's colour divided by the photons emitted",
             "intensities that differ, or say nothing".to_owned(),
             false,
             "Set 'intensity' to lightIntensity as it is.",
@@ -224,8 +224,8 @@ pub fn remarks(
     {
         findings.push(remark(
             "intensity",
-            "the light's colour divided by the photons sent out",
-            format!("it is of {says:.0} sent out, not of {emitted:.0}"),
+            "the light's colour divided by the photons emitted",
+            format!("it is of {says:.0} emitted, not of {emitted:.0}"),
             false,
             "Set 'intensity' to lightIntensity as it is.",
         ));

@@ -33,7 +33,7 @@ pub struct Judgement {
     pub reading: Hypothesis,
     /// That reading's signature.
     pub signature: Signature,
-    /// How many photons were sent out: as known, or as it fits best.
+    /// How many photons were emitted: as known, or as it fits best.
     pub emitted: f64,
 }
 
@@ -215,7 +215,7 @@ const ECHO: &str = "No misreading is known for it: it may be an echo of the faul
 
 fn expected_by(check: &str) -> &'static str {
     match check {
-        "number" => "as many photons as the scene stores of those sent out",
+        "number" => "as many photons as the scene stores of those emitted",
         "facets" => "on every facet as many photons as the scene leaves there",
         "density" => "the scene's density over every facet",
         "number of bounces" => "photons of as many bounces as are allowed",

@@ -21,6 +21,8 @@ const RULED_OUT: f64 = 1e-9;
 /// By hundreds of planted faults: how much likelier, before a list is seen, all faults that are not in the table are
 /// together than one that is.
 const OUTSIDE: f64 = 0.01;
+/// The same beside self-hits, whose law is only roughly known: much seems to be elsewhere.
+const SELF_HITS_OUTSIDE: f64 = 1e-4;
 /// A name is given when it is as sure as this.
 const SURE: f64 = 0.95;
 /// Nothing is surer than this: there may be mistakes of which nobody has thought.
@@ -138,7 +140,9 @@ pub fn explain(
             || variation.storage != Storage::Indirect
             || variation.most_bounces.is_some()
             || variation.fewer_bounces > 0;
-        of_nan == 0.0 && (is_below || repeated < MANY_REPEATED) && is_straight && is_long
+        // Directions below the surface lead back to it, but not to the very same place.
+        let may_repeat = is_below && !observation.repeats_by_rounding;
+        of_nan == 0.0 && (may_repeat || repeated < MANY_REPEATED) && is_straight && is_long
     };
     let comparison = Comparison::new(observation, emitted, places, known.signatures);
     let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
@@ -313,7 +317,7 @@ fn explain_by_self_hits(
 }
 
 /// Whether facets that the light does not reach have as many photons fewer as self-hits lose on their way: `counts`,
-/// at `distinct` places, of `emitted` sent out.
+/// at `distinct` places, of `emitted` emitted.
 fn loses_what_self_hits_lose(
     emitted: f64,
     counts: &[f64],
@@ -365,7 +369,10 @@ pub(super) fn most_likely(
     candidates.sort_by(|a, b| b.fit.log_likelihood.total_cmp(&a.fit.log_likelihood));
     let best = candidates.first()?.clone();
     let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
-    let least = if best.hypothesis.id == "no-offset" { SELF_HITS_LEAST } else { LEAST_LIKELY };
+    let (least, outside) = match best.hypothesis.id {
+        "no-offset" => (SELF_HITS_LEAST, SELF_HITS_OUTSIDE),
+        _ => (LEAST_LIKELY, OUTSIDE),
+    };
     if best.fit.p_value < least || is_fair {
         return None;
     }
@@ -378,7 +385,7 @@ pub(super) fn most_likely(
             sum += (other.fit.log_likelihood - best.fit.log_likelihood).exp();
         }
     }
-    sum += OUTSIDE * elsewhere(&best);
+    sum += outside * elsewhere(&best);
     let confidence = (1.0 / sum).min(SUREST);
     (confidence > SURE).then_some(Explanation { confidence, ..best })
 }

@@ -16,7 +16,7 @@ const LEAST_NUMBER: f64 = 100.0;
 /// How many neighbours are looked at before a photon counts as alone.
 const MOST_NEIGHBOURS: usize = 256;
 /// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with three, three in
-/// a hundred of the photons of ten million sent out.
+/// a hundred of the photons of ten million emitted.
 const FEWEST_DECIMALS: i32 = 4;
 /// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
 const EXACT_DECIMALS: i32 = 6;
@@ -135,7 +135,7 @@ pub struct Observation {
     /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
     /// then none counts as repeated.
     pub few_decimals: Option<i32>,
-    /// How many photons were sent out by the word of the intensities, if they agree with each other.
+    /// How many photons were emitted by the word of the intensities, if they agree with each other.
     pub emitted_by_intensity: Option<f64>,
     /// Whether the list has intensities that are of no use.
     pub has_odd_intensity: bool,
@@ -244,7 +244,7 @@ fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
     [later.count() as u64, without.count() as u64]
 }
 
-/// The intensity is the light's colour, which is white, divided by the photons it sends out.
+/// The intensity is the light's colour, which is white, divided by the photons it emits.
 fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
     let first = f64::from(records.first()?.intensity.x);
     let is_like_first = |intensity: Vec3| {

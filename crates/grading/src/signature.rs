@@ -12,7 +12,7 @@ use super::statistics::{Law, Matrix};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, fair_readings, misreadings};
-use variants::pairs::{PAIR, unnamed};
+use variants::pairs::{OTHER_ROULETTE, PAIR, unnamed};
 use variants::reading::Reading;
 use variants::variation::Simulation;
 
@@ -25,11 +25,11 @@ const WITH_FEWER_BOUNCES: u64 = 4_000_000;
 /// The seed of the signatures. Submissions that follow our streams have another.
 const SEED: u64 = 0x9_2019;
 
-/// Where one hypothesis leaves its photons, for each photon sent out. A class is a facet, or all of
+/// Where one hypothesis leaves its photons, for each photon emitted. A class is a facet, or all of
 /// [`super::places::Place::Corner`], or all of [`super::places::Place::Footprint`], in this order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Signature {
-    /// The photons sent out to measure it.
+    /// The photons emitted to measure it.
     pub emitted: f64,
     /// Photons by cell.
     pub cells: Vec<f64>,
@@ -52,7 +52,7 @@ pub struct Signatures {
     pub fair: Vec<Signature>,
     /// For [`misreadings`], in their order.
     pub misreadings: Vec<Signature>,
-    /// For [`unnamed`], in their order.
+    /// For [`unnamed`], in their order; nothing where these are not looked for.
     pub pairs: Vec<Signature>,
     /// How the numbers of photons in two cells go together under the reference: their correlation.
     pub correlation: Matrix,
@@ -69,7 +69,7 @@ pub struct Effort {
     pub misreading: u64,
     /// For each other misreading.
     pub slow_misreading: u64,
-    /// For two misreadings at once.
+    /// For each that has no name: two misreadings at once, and other roulettes. With 0, none is looked for.
     pub pair: u64,
 }
 
@@ -87,8 +87,8 @@ impl Effort {
         main: 8_000_000,
         fair: 2_000_000,
         misreading: 500_000,
-        slow_misreading: 200_000,
-        pair: 60_000,
+        slow_misreading: 100_000,
+        pair: 0,
     };
 }
 
@@ -101,7 +101,7 @@ impl Effort {
                 self.main
             }
             FAIR => self.fair,
-            PAIR => self.pair,
+            PAIR | OTHER_ROULETTE => self.pair,
             BOUNCE_OFF_BY_ONE => self.misreading.max(WITH_FEWER_BOUNCES),
             _ if hypothesis.variation.is_fast() => self.misreading,
             _ => self.slow_misreading,
@@ -138,7 +138,8 @@ impl Kept {
             self.of.insert(reference.key(), signature);
         }
         let all = [fair_readings(), misreadings(), unnamed()].concat();
-        let missing = all.par_iter().filter(|it| !self.of.contains_key(&it.key()));
+        let missing =
+            all.par_iter().filter(|it| effort.photons(it) > 0 && !self.of.contains_key(&it.key()));
         let measured: Vec<_> = missing.map(|it| (it.key(), measure(it).0)).collect();
         self.of.extend(measured);
     }
@@ -159,6 +160,7 @@ impl Signatures {
 
     /// Those in `kept`, which has all of them, for photons that may bounce `max_bounces` times.
     pub fn of_kept(max_bounces: i32, Kept { correlation, mut of }: Kept) -> Self {
+        let of_all = unnamed().first().is_some_and(|first| of.contains_key(&first.key()));
         let mut take = |hypotheses: Vec<Hypothesis>| -> Vec<Signature> {
             let signature = |hypothesis: &Hypothesis| {
                 let key = hypothesis.key();
@@ -170,7 +172,7 @@ impl Signatures {
             max_bounces,
             fair: take(fair_readings()),
             misreadings: take(misreadings()),
-            pairs: take(unnamed()),
+            pairs: if of_all { take(unnamed()) } else { Vec::new() },
             correlation,
         }
     }

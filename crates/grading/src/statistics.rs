@@ -17,11 +17,11 @@ pub struct Fit {
     pub p_value: f64,
     /// The logarithm of the likelihood, but for a constant.
     pub log_likelihood: f64,
-    /// How many photons were sent out: as given, or as it fits best.
+    /// How many photons were emitted: as given, or as it fits best.
     pub emitted: f64,
 }
 
-/// The law of counts: their means and covariance for one photon sent out.
+/// The law of counts: their means and covariance for one photon emitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     /// The means.

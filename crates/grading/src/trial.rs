@@ -9,7 +9,7 @@ use super::test::Test;
 use variants::hypotheses::BOUNCE_OFF_BY_ONE;
 
 /// By which part of itself an expectation may be off for reasons that a course cannot fault: where
-/// exactly a ray starts, and how far off the surface a position is stored. Of 4,000,000 photons sent out, an
+/// exactly a ray starts, and how far off the surface a position is stored. Of 4,000,000 photons emitted, an
 /// offset of 1e-3 and positions 0.007 off moved 0.5 % of a facet's photons, or 1 % where they are few.
 pub(super) const LEEWAY: f64 = 0.006;
 /// The same for cells, of which a larger part lies along an edge.

@@ -833,7 +833,7 @@ fn too_few_photons_are_not_correct() {
     let judgement = judge(&observation, None, false, &EXPECTATIONS);
     let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
     assert_eq!(fault.check, "enough photons");
-    // Of 60 sent out, they are as many as they should be.
+    // Of 60 emitted, they are as many as they should be.
     assert!(!is_incorrect(&judge(&observation, Some(60.0), true, &EXPECTATIONS)));
 }
 

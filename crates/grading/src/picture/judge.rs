@@ -56,7 +56,7 @@ pub struct PictureJudgement {
     pub explanation: Option<Explanation>,
     /// Two misreadings that explain them together, if none does alone.
     pub pair: Option<Explanation>,
-    /// How many photons were sent out: as known, or as it fits best; nothing where nothing fits.
+    /// How many photons were emitted: as known, or as it fits best; nothing where nothing fits.
     pub emitted: Option<f64>,
     /// The smallest p-value, corrected for the number of tests, where there were any.
     pub p_value: Option<f64>,
@@ -90,7 +90,7 @@ struct Case<'a> {
     expectations: &'a PictureExpectations,
 }
 
-/// Judges the dots `red`, by pixel of `view`, where `emitted` photons were sent out, if that is known.
+/// Judges the dots `red`, by pixel of `view`, where `emitted` photons were emitted, if that is known.
 pub fn judge_dots(
     red: &[bool],
     view: &View,

@@ -19,7 +19,7 @@ use dots::find_dots;
 use expectations::PictureExpectations;
 use judge::{PictureJudgement, judge_dots};
 
-/// Judges the picture `path`, for which `emitted` photons were sent out, if that is known.
+/// Judges the picture `path`, for which `emitted` photons were emitted, if that is known.
 ///
 /// # Errors
 /// The reason, in words, if its dots cannot be told.

@@ -29,11 +29,11 @@ const SELF_HITS: ([f32; 3], [f32; 3]) = ([0.1, 0.25, 0.4], [0.3, 0.45, 0.6]);
 /// How often the photons of one hypothesis turn pixels red.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureSignature {
-    /// How many photons were sent out to measure it.
+    /// How many photons were emitted to measure it.
     pub emitted: f64,
     /// By patch of the view: how many pixels were turned red, all photons taken on their own.
     pub red: Vec<f64>,
-    /// By facet in sight, and for each photon sent out: the sum over pairs of photons of its path of
+    /// By facet in sight, and for each photon emitted: the sum over pairs of photons of its path of
     /// the product of the pixels that they turn red.
     pub pairs: Matrix,
 }
@@ -69,7 +69,7 @@ impl Kept {
     /// Measures what is missing, for photons that may bounce `max_bounces` times.
     pub fn complete(&mut self, places: &Places, view: &View, max_bounces: i32, effort: Effort) {
         let all = [fair_readings(), known_misreadings(places), known_pairs(places)].concat();
-        for hypothesis in all {
+        for hypothesis in all.into_iter().filter(|it| effort.photons(it) > 0) {
             let measure = || measure(&hypothesis, view, effort.photons(&hypothesis), max_bounces);
             self.of.entry(hypothesis.key()).or_insert_with(measure);
         }
@@ -90,6 +90,7 @@ impl PictureSignatures {
     }
 
     fn new(places: &Places, max_bounces: i32, Kept { mut of }: Kept) -> Self {
+        let of_all = known_pairs(places).first().is_some_and(|first| of.contains_key(&first.key()));
         let mut take = |hypotheses: Vec<Hypothesis>| -> Vec<PictureSignature> {
             let signature = |hypothesis: &Hypothesis| {
                 let key = hypothesis.key();
@@ -101,7 +102,7 @@ impl PictureSignatures {
             max_bounces,
             fair: take(fair_readings()),
             misreadings: take(known_misreadings(places)),
-            pairs: take(known_pairs(places)),
+            pairs: if of_all { take(known_pairs(places)) } else { Vec::new() },
         }
     }
 }

@@ -115,13 +115,26 @@ pub fn stored_twice() -> Hypothesis {
     )
 }
 
+/// Those that are known by their marks on single photons.
+pub fn by_marks() -> [Hypothesis; 3] {
+    [no_offset([0.0; FACETS]), repeated_paths(), stored_twice()]
+}
+
+/// The names of all misreadings, in order.
+pub fn names() -> Vec<&'static str> {
+    let all = by_marks().into_iter().chain(misreadings());
+    let mut names: Vec<_> = all.map(|hypothesis| hypothesis.id).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
 /// All misreadings as a table of the documentation.
 pub fn table() -> String {
     let mut text = "# The misreadings that have a name\n\nMade by the example `misreadings` of \
         `crates/variants`, from its table.\n"
         .to_owned();
-    let marked = [no_offset([0.0; FACETS]), repeated_paths(), stored_twice()];
-    let mut all: Vec<_> = marked.into_iter().chain(misreadings()).collect();
+    let mut all: Vec<_> = by_marks().into_iter().chain(misreadings()).collect();
     all.retain(|way| {
         way.variation.reading.tangent_basis != TangentBasis::LetterOfTheHandout
             || way.id == "no-absolute-value"
