@@ -9,12 +9,14 @@ use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::observe;
 use grading::places::{Place, Places};
 use grading::signature::{Effort, Signatures};
+use grading::statistics::Residual;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use rayon::prelude::*;
+use statrs::function::erf::erfc;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::pairs;
 use variants::reading::{Reading, TangentBasis};
@@ -52,8 +54,11 @@ fn main() {
     let small_limit = Signatures::measure(&places, SMALL_LIMIT, Effort::QUICK);
     let with_small_limit = Expectations::new(places, small_limit);
     false_alarms(alarms, &expectations, &with_small_limit);
+    if seeds == 0 {
+        return;
+    }
     detection(seeds, &only, &expectations, &with_small_limit);
-    if only.is_empty() {
+    if only.is_empty() && seeds > 0 {
         two_at_once(seeds, &expectations);
     }
 }
@@ -258,14 +263,13 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
         };
         println!("## Found and named: {what}\n");
         println!(
-            "{seeds} lists of {EMITTED} photons emitted a row, of all of its variants in turn. Columns: \
-             called correct, called incorrect without a name, and named, by number.\n"
+            "{seeds} lists of {EMITTED} photons emitted a row, of all of its ways in turn. The limit is how many of them \
+             the best test would find that knows both laws, by cells, and no fair reading but the closest.\n"
         );
-        let numbers: Vec<String> = (1..=ids.len()).map(|number| number.to_string()).collect();
-        println!("| what was done | correct | no name | {} |", numbers.join(" | "));
-        println!("|---{}|", "|---".repeat(ids.len() + 2));
-        let rows = std::iter::once(&"fair").chain(&ids).enumerate();
-        for (row, id) in rows.filter(|(_, id)| only.is_empty() || **id == only) {
+        println!("| what was done | limit | incorrect | named rightly | named wrongly |");
+        println!("|---|---|---|---|---|");
+        let rows = std::iter::once(&"fair").chain(&ids);
+        for id in rows.filter(|id| only.is_empty() || **id == only) {
             let variants: Vec<&Hypothesis> =
                 hypotheses.iter().filter(|hypothesis| hypothesis.id == *id).collect();
             let expectations =
@@ -277,20 +281,63 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
                     outcome(variant, content, 9_000_000 + seed, expectations)
                 })
                 .collect();
-            let count = |wanted: Outcome| match outcomes.iter().filter(|it| **it == wanted).count()
-            {
-                0 => String::new(),
-                count => count.to_string(),
+            let count = |is_counted: &dyn Fn(&Outcome) -> bool| {
+                outcomes.iter().filter(|outcome| is_counted(outcome)).count()
             };
-            let named: Vec<String> = ids.iter().map(|id| count(Outcome::Named(id))).collect();
-            let title =
-                if row == 0 { "a fair reading".to_owned() } else { format!("{row} `{id}`") };
-            let (correct, unnamed) = (count(Outcome::Correct), count(Outcome::Unnamed));
-            println!("| {title} | {correct} | {unnamed} | {} |", named.join(" | "));
+            let incorrect = count(&|outcome| *outcome != Outcome::Correct);
+            let right = count(&|outcome| *outcome == Outcome::Named(id));
+            let mut wrong: Vec<&str> = (outcomes.iter())
+                .filter_map(|outcome| match outcome {
+                    Outcome::Named(name) if name != id => Some(*name),
+                    _ => None,
+                })
+                .collect();
+            wrong.sort_unstable();
+            let limit = limit(id, content, expectations)
+                .map_or(String::new(), |limit| format!("{:.0}", limit * seeds as f64));
+            println!("| `{id}` | {limit} | {incorrect} | {right} | {} |", wrong.join(", "));
         }
         println!();
     }
     println!("`bounce-off-by-one` is judged with `--max-bounces {SMALL_LIMIT}`.\n");
+}
+
+/// How often, over the ways to `id`, the best test would find it that knows two laws: this one, and that of the closest
+/// fair reading.
+fn limit(id: &str, content: Content, expectations: &Expectations) -> Option<f64> {
+    let emitted = match content {
+        Content::PositionsAlone => None,
+        Content::PositionsAndNumber => Some(EMITTED as f64),
+        Content::Everything => return None,
+    };
+    let signatures = &expectations.signatures;
+    let of_id = misreadings().into_iter().zip(&signatures.misreadings);
+    let of_id: Vec<_> = of_id.filter(|(hypothesis, _)| hypothesis.id == id).collect();
+    let powers: Vec<f64> = of_id
+        .iter()
+        .map(|(_, signature)| {
+            let counts: Vec<f64> =
+                signature.cells.iter().map(|mean| mean * EMITTED as f64).collect();
+            let fair = signatures.fair.iter().map(|fair| {
+                let law = fair.law_of_cells(&signatures.correlation, 0.0);
+                let apart = Residual::new(&counts, &law, emitted).towards(&signature.cells).1;
+                0.5 * erfc((quantile(SIGNIFICANCE) - apart) / std::f64::consts::SQRT_2)
+            });
+            fair.fold(1.0, f64::min)
+        })
+        .collect();
+    (!powers.is_empty()).then(|| powers.iter().sum::<f64>() / powers.len() as f64)
+}
+
+/// How many standard deviations a normal number is above 0 with the chance `p`.
+fn quantile(p: f64) -> f64 {
+    let mut range = [0.0, 40.0];
+    for _ in 0..60 {
+        let middle = 0.5 * (range[0] + range[1]);
+        let is_low = 0.5 * erfc(middle / std::f64::consts::SQRT_2) > p;
+        range[usize::from(!is_low)] = middle;
+    }
+    range[0]
 }
 
 /// Lists in which two misreadings were made, which no single name tells.
@@ -330,7 +377,7 @@ fn two_at_once(seeds: u64, expectations: &Expectations) {
             }
         };
         let mut row = [0; 6];
-        let told: Vec<usize> = (0..10 * seeds).into_par_iter().map(tell).collect();
+        let told: Vec<usize> = (0..seeds * 3).into_par_iter().map(tell).collect();
         told.into_iter().for_each(|column| row[column] += 1);
         println!("| {what} | {} |", row.map(|n| n.to_string()).join(" | "));
     }

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use super::bounces::{BOUNCES_BY_PLACE, bounce_findings};
 use super::direct::{is_ruled_out, shows_direct};
 use super::facts::{enough, plain_findings, remarks};
-use super::naming::{Explanation, Known, explain};
+use super::naming::{Explanation, explain};
 use super::number::{SLIPS, cannot_be, contradiction, impossible, slip_finding};
 use super::observation::Observation;
 use super::picture::expectations::PictureExpectations;
@@ -44,9 +44,9 @@ pub struct Expectations {
     pub places: Places,
     /// The signatures of all hypotheses.
     pub signatures: Signatures,
-    fair: Vec<Hypothesis>,
+    pub(super) fair: Vec<Hypothesis>,
     pub(super) misreadings: Vec<Hypothesis>,
-    pairs: Vec<Hypothesis>,
+    pub(super) pairs: Vec<Hypothesis>,
     /// What pictures are held against: most classes hand in none.
     pictures: OnceLock<PictureExpectations>,
 }
@@ -87,12 +87,6 @@ pub fn judge(
     expectations: &Expectations,
 ) -> Judgement {
     let places = &expectations.places;
-    let known = Known {
-        fair: &expectations.fair,
-        misreadings: &expectations.misreadings,
-        pairs: &expectations.pairs,
-        signatures: &expectations.signatures,
-    };
     let mut findings = plain_findings(observation, places);
     let mut trial = best_trial(observation, emitted, expectations);
     let signature = &expectations.signatures.fair[trial.reading];
@@ -114,7 +108,7 @@ pub fn judge(
                 _ => false,
             }
     };
-    let explained = is_off.then(|| explain(observation, emitted, places, known)).flatten();
+    let explained = is_off.then(|| explain(observation, emitted, expectations)).flatten();
     let (mut explanation, mut pair) = alone_or_pair(explained.filter(is_shown));
     // Of photons that mostly lie elsewhere, the others say nothing of the number.
     let is_told_by_places = observation.counts.on_surfaces() > MOSTLY * observation.records as f64;
@@ -141,7 +135,7 @@ pub fn judge(
             trial = by_shape;
         } else {
             let named = slips.into_iter().find_map(|(slip, emitted)| {
-                Some((slip, explain(observation, Some(emitted), places, known)?))
+                Some((slip, explain(observation, Some(emitted), expectations)?))
             });
             if let Some((slip, misreading)) = named {
                 findings.push(slip_finding(slip, number, trial.p_value));

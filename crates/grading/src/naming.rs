@@ -1,16 +1,18 @@
 //! Which misreading explains what a submission shows?
 
 use super::bounces::of_each_bounce;
+use super::judge_list::Expectations;
 use super::observation::Observation;
 use super::places::Places;
+use super::self_hits::{explain_by_self_hits, shows_self_hits};
 use super::signature::{Signature, Signatures, classes};
-use super::statistics::{Fit, Law, Matrix, Residual, corrected, fit, grouped, towards};
+use super::statistics::{Fit, Law, Matrix, Residual, corrected, fit, grouped};
 use super::trial::{LEAST_EXPECTED, LEEWAY, LEEWAY_OF_CELLS};
 use variants::hypotheses::{
     BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, no_offset, repeated_paths, stored_twice,
 };
 use variants::pairs::{OTHER_ROULETTE, PAIR};
-use variants::variation::{FACETS, Storage, survival_of_facets};
+use variants::variation::{FACETS, Storage};
 
 /// A misreading that would show what is seen, or something stranger, less often than this explains nothing.
 const LEAST_LIKELY: f64 = 3e-3;
@@ -34,18 +36,6 @@ const ALL_COPIED: f64 = 0.95;
 const MANY_REPEATED: f64 = 0.03;
 /// Of more bounces than these, hardly a path has the last.
 const SMALL_LIMIT: i32 = 12;
-/// How many standard deviations the places of self-hits must be towards those of first hits: what is
-/// stored twice for another reason is not.
-const FIRST_HITS_SHOW: f64 = 6.0;
-/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first hits,
-/// which are not stored, they make at most so many known. Both are out of reach for rounding, which
-/// brings half of the starts below the surface.
-const LEAST_SCATTERED: f64 = 0.5;
-const MOST_FIRST_HITS: f64 = 0.5;
-/// By which part of itself the number of photons that self-hits leave may be off: its prediction takes the same
-/// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
-const LEEWAY_OF_LOSS: f64 = 0.12;
-
 /// The logarithm of how much rarer than one misreading of the table two of them at once are.
 const RARER_PAIR: f64 = -6.0;
 /// The same of each roulette that has no name.
@@ -90,19 +80,6 @@ impl Explanation {
     }
 }
 
-/// What is known of the misreadings.
-#[derive(Clone, Copy, Debug)]
-pub struct Known<'a> {
-    /// The fair readings.
-    pub fair: &'a [Hypothesis],
-    /// The misreadings.
-    pub misreadings: &'a [Hypothesis],
-    /// Two of them at once.
-    pub pairs: &'a [Hypothesis],
-    /// The signatures of all.
-    pub signatures: &'a Signatures,
-}
-
 /// Whether a bounce fewer than `max_bounces`, which are allowed, can show at all.
 pub fn bounces_show(max_bounces: i32) -> bool {
     max_bounces <= SMALL_LIMIT
@@ -112,10 +89,10 @@ pub fn bounces_show(max_bounces: i32) -> bool {
 pub fn explain(
     observation: &Observation,
     emitted: Option<f64>,
-    places: &Places,
-    known: Known,
+    expectations: &Expectations,
 ) -> Option<Explanation> {
-    let max_bounces = known.signatures.max_bounces;
+    let Expectations { places, fair, misreadings, pairs, signatures, .. } = expectations;
+    let max_bounces = signatures.max_bounces;
     let repeated = observation.repeated / observation.counts.on_surfaces().max(1.0);
     let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
     let straight = observation.to_light.and_then(|to_light| to_light.part_straight());
@@ -144,10 +121,10 @@ pub fn explain(
         let may_repeat = is_below && !observation.repeats_by_rounding;
         of_nan == 0.0 && (may_repeat || repeated < MANY_REPEATED) && is_straight && is_long
     };
-    let comparison = Comparison::new(observation, emitted, places, known.signatures);
-    let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
-    let mut candidates: Vec<Explanation> = (known.misreadings.iter().chain(known.pairs))
-        .zip(signatures)
+    let comparison = Comparison::new(observation, emitted, places, signatures);
+    let of_misreadings = signatures.misreadings.iter().chain(&signatures.pairs);
+    let mut candidates: Vec<Explanation> = (misreadings.iter().chain(pairs))
+        .zip(of_misreadings)
         .filter(|(hypothesis, _)| is_possible(hypothesis))
         .filter(|(hypothesis, _)| hypothesis.id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces))
         .map(|(hypothesis, signature)| Explanation::new(hypothesis, comparison.fit(signature)))
@@ -157,21 +134,21 @@ pub fn explain(
         if !shows_self_hits(observation) {
             return None;
         }
-        let fit = explain_by_self_hits(observation, emitted, places, known)?;
+        let fit = explain_by_self_hits(observation, emitted, expectations)?;
         let hypothesis = no_offset([0.0; FACETS]);
         return Some(Explanation { hypothesis, fit, confidence: SUREST.min(1.0 - others) });
     }
     if of_nan == 0.0 && !is_short {
         // Photons lost or stored twice all over the scene are no misreading, and neither is what only resembles one.
         let of_any_number = Comparison { emitted: None, ..comparison.clone() };
-        let fair = known.fair.iter().zip(&known.signatures.fair);
+        let fair = fair.iter().zip(&signatures.fair);
         candidates.extend(
             fair.map(|(reading, signature)| {
                 Explanation::new(reading, of_any_number.fit(signature))
             }),
         );
     }
-    most_likely(candidates, |best| comparison.elsewhere(best, known))
+    most_likely(candidates, |best| comparison.elsewhere(best, expectations))
 }
 
 /// What made every photon come more than once, to the last bit.
@@ -182,17 +159,6 @@ fn copied(observation: &Observation) -> Option<Explanation> {
         if copies.side_by_side > ALL_COPIED { stored_twice() } else { repeated_paths() };
     let confidence = SUREST;
     (copies.all > ALL_COPIED).then_some(Explanation { hypothesis, fit, confidence })
-}
-
-/// Whether photons at the same place are there because rays start below the surface: by rounding, or since they come from
-/// behind it. Directions below the surface lead back to it from the front, and from farther away.
-fn shows_self_hits(observation: &Observation) -> bool {
-    let is_from_behind = observation.to_light.is_some_and(|to_light| {
-        let from_behind = to_light.from_behind as f64;
-        // Of more than half of all photons, it is the sign of the column.
-        (0.5 * observation.repeated..0.5 * to_light.set as f64).contains(&from_behind)
-    });
-    observation.repeats_by_rounding || is_from_behind
 }
 
 /// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.
@@ -256,11 +222,12 @@ impl<'a> Comparison<'a> {
 
     /// The evidence for something that is not in the table, beside `best`: between it and another hypothesis, or
     /// with another part of paths of each length.
-    fn elsewhere(&self, best: &Explanation, known: Known) -> f64 {
+    fn elsewhere(&self, best: &Explanation, expectations: &Expectations) -> f64 {
+        let Expectations { misreadings, pairs, signatures, .. } = expectations;
         let (groups, count) = &self.groups;
         let all = || {
-            let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
-            known.misreadings.iter().chain(known.pairs).zip(signatures)
+            let of_misreadings = signatures.misreadings.iter().chain(&signatures.pairs);
+            misreadings.iter().chain(pairs).zip(of_misreadings)
         };
         let is_best = |hypothesis: &Hypothesis| hypothesis.key() == best.hypothesis.key();
         let Some((_, signature)) = all().find(|(hypothesis, _)| is_best(hypothesis)) else {
@@ -268,7 +235,7 @@ impl<'a> Comparison<'a> {
         };
         let law = self.law_of_cells(signature);
         let others = all().filter(|(other, _)| other.id != best.hypothesis.id);
-        let fair = known.signatures.fair.iter();
+        let fair = signatures.fair.iter();
         let others = others.map(|(_, signature)| signature).chain(fair);
         let of_cells = Residual::new(&self.of_cells, &law, self.emitted)
             .elsewhere(others.map(|other| grouped(&other.cells, groups, *count)));
@@ -278,85 +245,6 @@ impl<'a> Comparison<'a> {
         let of_lengths = Residual::new(&self.of_classes, &law, self.emitted).elsewhere(with_more);
         0.5 * (of_cells + of_lengths)
     }
-}
-
-/// Whether self-hits explain places at which several photons lie. How many there are depends on rounding, from
-/// facet to facet and from bounce to bounce, so their counts follow no law; but what they leave when every
-/// place counts once does: the places of scattered photons, of which a part is lost, and of first hits, of
-/// which a part becomes known.
-fn explain_by_self_hits(
-    observation: &Observation,
-    emitted: Option<f64>,
-    places: &Places,
-    known: Known,
-) -> Option<Fit> {
-    let direct_stored =
-        known.misreadings.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
-    let with_first_hits = &known.signatures.misreadings[direct_stored].classes;
-    let law = known.signatures.fair[0].law_of_classes(LEEWAY);
-    let distinct = classes(&observation.distinct, places);
-    let of_distinct = fit(&distinct, &law, emitted);
-    let shows_first_hits = towards(&distinct, &law, with_first_hits, emitted) > FIRST_HITS_SHOW;
-    let size = of_distinct.emitted;
-    let is_between = |class: usize| {
-        let scattered = size * law.mean[class];
-        let first = size * (with_first_hits[class] - law.mean[class]).max(0.0);
-        let by_chance = 5.0 * (scattered + first).sqrt() + 5.0;
-        let least = LEAST_SCATTERED * scattered - by_chance;
-        let most = 1.1 * scattered + MOST_FIRST_HITS * first + by_chance;
-        // Of an unknown size, only the shape of what is left tells.
-        emitted.is_none() || (least..most).contains(&distinct[class])
-    };
-    let explains = shows_first_hits
-        && (0..places.facets.len()).all(is_between)
-        && emitted.is_none_or(|emitted| {
-            let counts = classes(&observation.counts, places);
-            loses_what_self_hits_lose(emitted, &counts, &distinct, with_first_hits, known)
-        });
-    explains.then_some(of_distinct)
-}
-
-/// Whether facets that the light does not reach have as many photons fewer as self-hits lose on their way: `counts`,
-/// at `distinct` places, of `emitted` emitted.
-fn loses_what_self_hits_lose(
-    emitted: f64,
-    counts: &[f64],
-    distinct: &[f64],
-    with_first_hits: &[f64],
-    known: Known,
-) -> bool {
-    let reference = &known.signatures.fair[0];
-    let first_hits =
-        |facet: usize| emitted * (with_first_hits[facet] - reference.classes[facet]).max(0.0);
-    let scattered = |facet: usize| emitted * reference.classes[facet];
-    let (lit, dark): (Vec<usize>, Vec<usize>) =
-        (0..FACETS).partition(|facet| first_hits(*facet) > scattered(*facet));
-    let of_dark = |of: &dyn Fn(usize) -> f64| dark.iter().map(|facet| of(*facet)).sum::<f64>();
-    let found = of_dark(&|facet| distinct[facet]);
-    let left = found / of_dark(&scattered).max(1.0);
-
-    let survival = survival_of_facets();
-    let (mut survive, mut leave) = (0.0, 0.0);
-    for facet in lit {
-        let (first, survival) = (first_hits(facet), f64::from(survival[facet]));
-        let arriving = left * scattered(facet) + first;
-        // Of first hits, those are known that a self-hit followed. What follows that may be rarer: on some planes
-        // rounding brings no point below twice.
-        let again = ((distinct[facet] - left * scattered(facet)) / first).clamp(0.0, survival);
-        let known_again = counts[facet] - distinct[facet] + first * again;
-        let once_more = (1.0 - arriving * again / known_again.max(1.0)).clamp(0.0, survival);
-        survive += first * survival;
-        leave += first
-            * (survival - again + again * (survival - once_more) / (1.0 - once_more).max(1e-9));
-    }
-    let part = leave / survive;
-    let of_bounce = |bounce: usize| of_dark(&|facet| reference.by_bounce[bounce][facet]);
-    let bounces = 0..reference.by_bounce.len();
-    let all: f64 = bounces.clone().map(of_bounce).sum();
-    let lost: f64 =
-        bounces.map(|bounce| part.powi(bounce as i32 + 1) * of_bounce(bounce)).sum::<f64>() / all;
-    let by_chance = 3.0 / found.max(1.0).sqrt();
-    (left / lost - 1.0).abs() < LEEWAY_OF_LOSS + by_chance
 }
 
 /// The likeliest of `candidates`, if it explains what is seen, and neither another one does as well nor something that is

@@ -1,28 +1,22 @@
 //! What a list of photons shows: counted by place, and looked over for what cannot be right.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use super::crowding::crowding;
 use super::places::{Place, Places};
+use super::repeats::{Copies, Repeat, are_by_rounding, copies, repeats};
 use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 
-/// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
-const SAME_PLACE: f64 = 2e-5;
 /// An intensity whose inverse is less is none of so many photons, but a colour left as it is, perhaps times a
 /// constant.
 const LEAST_NUMBER: f64 = 100.0;
-/// How many neighbours are looked at before a photon counts as alone.
-const MOST_NEIGHBOURS: usize = 256;
 /// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with three, three in
 /// a hundred of the photons of ten million emitted.
 const FEWEST_DECIMALS: i32 = 4;
 /// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
 const EXACT_DECIMALS: i32 = 6;
-/// Rounding brings a hit no farther than this from the hit it repeats: four units in the last place of an f32
-/// between 1 and 2. Rays that start 1e-5 above a surface and go below it come back farther away.
-const BY_ROUNDING: f64 = 1e-6;
 /// How many bounces are counted apart.
 pub const BOUNCES: usize = 4;
 
@@ -98,15 +92,6 @@ impl ToLight {
         let tells = !self.is_towards_light_throughout();
         tells.then(|| self.to_the_light as f64 / self.set.max(1) as f64)
     }
-}
-
-/// Positions that come more than once, to the last bit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Copies {
-    /// The part of the photons that lie where another one does.
-    pub all: f64,
-    /// Of these, the part that has one of its copies beside it in the list.
-    pub side_by_side: f64,
 }
 
 /// What a list shows.
@@ -221,19 +206,6 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
     }
 }
 
-fn copies(records: &[PhotonRecord]) -> Copies {
-    let bits = |record: &PhotonRecord| record.position.to_array().map(f32::to_bits);
-    let mut counts = HashMap::new();
-    records.iter().for_each(|record| *counts.entry(bits(record)).or_insert(0_u32) += 1);
-    let all = records.iter().filter(|record| counts[&bits(record)] > 1).count() as f64;
-    let runs = records.chunk_by(|a, b| bits(a) == bits(b)).map(<[_]>::len);
-    let side_by_side: usize = runs.filter(|length| *length > 1).sum();
-    Copies {
-        all: all / records.len().max(1) as f64,
-        side_by_side: side_by_side as f64 / all.max(1.0),
-    }
-}
-
 /// How many of `records` come after a path's first, and how many of these lack the bounce before.
 fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
     let first = records.iter().map(|record| record.bounce).min().unwrap_or_default();
@@ -256,50 +228,6 @@ fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
     let agree = is_a_number && records.iter().all(|record| is_like_first(record.intensity));
     // Of f32, whose 7 digits leave the last of a larger number open.
     agree.then(|| if emitted < 1e6 { emitted.round() } else { emitted })
-}
-
-/// Whether a photon lies where another one does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Repeat {
-    No,
-    /// Within [`SAME_PLACE`].
-    Closely,
-    /// Within [`BY_ROUNDING`].
-    ByRounding,
-    Exactly,
-}
-
-/// Whether most of the photons that repeat another one are no farther from it than rounding.
-fn are_by_rounding(repeats: &[Repeat]) -> bool {
-    let count = |wanted| repeats.iter().filter(|repeat| **repeat == wanted).count();
-    count(Repeat::Exactly) + count(Repeat::ByRounding) > count(Repeat::Closely)
-}
-
-/// Which photons have another one at the same place that comes after them on a sweep.
-fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat> {
-    // Askew to all facets, so that few photons are abreast.
-    let way = DVec3::new(0.5342, 0.6171, 0.5777);
-    let mut sweep: Vec<(f64, DVec3, usize)> = Vec::new();
-    for (index, (record, place)) in records.iter().zip(located).enumerate() {
-        if matches!(place, Place::Cell { .. } | Place::Corner { .. }) {
-            let position = record.position.as_dvec3();
-            sweep.push((position.dot(way), position, index));
-        }
-    }
-    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let mut repeats = vec![Repeat::No; records.len()];
-    for (at, (along, position, index)) in sweep.iter().enumerate() {
-        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
-        let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
-        let closest = near.map(|other| other.1.distance_squared(*position)).reduce(f64::min);
-        repeats[*index] = match closest {
-            Some(0.0) => Repeat::Exactly,
-            Some(squared) if squared <= BY_ROUNDING.powi(2) => Repeat::ByRounding,
-            Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
-            _ => Repeat::No,
-        };
-    }
-    repeats
 }
 
 fn directions(

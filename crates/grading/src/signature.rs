@@ -6,22 +6,21 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+pub use super::kept::Effort;
+use super::kept::take;
 use super::observation::{BOUNCES, Counts};
 use super::places::Places;
 use super::statistics::{Law, Matrix};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, fair_readings, misreadings};
-use variants::pairs::{OTHER_ROULETTE, PAIR, unnamed};
-use variants::reading::Reading;
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings};
+use variants::pairs::unnamed;
 use variants::variation::Simulation;
 
 /// How many photons a thread traces at once.
 const PIECE: u64 = 1 << 16;
 /// By which part of itself the number of photons in corners may be off.
 const LEEWAY_OF_CORNERS: f64 = 0.5;
-/// A bounce fewer shows so little that with fewer photons than this, chance would be most of what it seems to do.
-const WITH_FEWER_BOUNCES: u64 = 4_000_000;
 /// The seed of the signatures. Submissions that follow our streams have another.
 const SEED: u64 = 0x9_2019;
 
@@ -56,57 +55,6 @@ pub struct Signatures {
     pub pairs: Vec<Signature>,
     /// How the numbers of photons in two cells go together under the reference: their correlation.
     pub correlation: Matrix,
-}
-
-/// With how many photons signatures are measured.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// For the reference and the letter of the handout.
-    pub main: u64,
-    /// For the other fair readings.
-    pub fair: u64,
-    /// For each misreading that the fast path can trace.
-    pub misreading: u64,
-    /// For each other misreading.
-    pub slow_misreading: u64,
-    /// For each that has no name: two misreadings at once, and other roulettes. With 0, none is looked for.
-    pub pair: u64,
-}
-
-impl Effort {
-    /// For the signatures that are kept.
-    pub const FULL: Self = Self {
-        main: 100_000_000,
-        fair: 30_000_000,
-        misreading: 4_000_000,
-        slow_misreading: 4_000_000,
-        pair: 4_000_000,
-    };
-    /// For a limit of bounces of a course's own, in a few seconds.
-    pub const QUICK: Self = Self {
-        main: 8_000_000,
-        fair: 2_000_000,
-        misreading: 500_000,
-        slow_misreading: 100_000,
-        pair: 0,
-    };
-}
-
-impl Effort {
-    /// With how many photons `hypothesis` is measured.
-    pub fn photons(&self, hypothesis: &Hypothesis) -> u64 {
-        let reading = hypothesis.variation.reading;
-        match hypothesis.id {
-            FAIR if [Reading::REFERENCE, Reading::LETTER_OF_THE_HANDOUT].contains(&reading) => {
-                self.main
-            }
-            FAIR => self.fair,
-            PAIR | OTHER_ROULETTE => self.pair,
-            BOUNCE_OFF_BY_ONE => self.misreading.max(WITH_FEWER_BOUNCES),
-            _ if hypothesis.variation.is_fast() => self.misreading,
-            _ => self.slow_misreading,
-        }
-    }
 }
 
 /// Signatures as they are kept: each under what its hypothesis is called.
@@ -160,19 +108,11 @@ impl Signatures {
 
     /// Those in `kept`, which has all of them, for photons that may bounce `max_bounces` times.
     pub fn of_kept(max_bounces: i32, Kept { correlation, mut of }: Kept) -> Self {
-        let of_all = unnamed().first().is_some_and(|first| of.contains_key(&first.key()));
-        let mut take = |hypotheses: Vec<Hypothesis>| -> Vec<Signature> {
-            let signature = |hypothesis: &Hypothesis| {
-                let key = hypothesis.key();
-                of.remove(&key).unwrap_or_else(|| panic!("no signature is kept for '{key}'"))
-            };
-            hypotheses.iter().map(signature).collect()
-        };
         Self {
             max_bounces,
-            fair: take(fair_readings()),
-            misreadings: take(misreadings()),
-            pairs: if of_all { take(unnamed()) } else { Vec::new() },
+            fair: take(&mut of, &fair_readings()),
+            misreadings: take(&mut of, &misreadings()),
+            pairs: take(&mut of, &unnamed()),
             correlation,
         }
     }

@@ -6,6 +6,8 @@ pub mod dots;
 pub mod expectations;
 pub mod expected;
 pub mod judge;
+mod naming;
+mod off_surface;
 pub mod reading;
 pub mod signature;
 pub mod trials;

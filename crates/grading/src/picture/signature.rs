@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::view::View;
+use crate::kept::{Effort, take};
 use crate::places::Places;
-use crate::signature::Effort;
 use crate::statistics::Matrix;
 use photon_mapping::assignment8::MAX_PHOTON_BOUNCES;
 use photon_mapping::photon_list::PhotonRecord;
@@ -90,19 +90,11 @@ impl PictureSignatures {
     }
 
     fn new(places: &Places, max_bounces: i32, Kept { mut of }: Kept) -> Self {
-        let of_all = known_pairs(places).first().is_some_and(|first| of.contains_key(&first.key()));
-        let mut take = |hypotheses: Vec<Hypothesis>| -> Vec<PictureSignature> {
-            let signature = |hypothesis: &Hypothesis| {
-                let key = hypothesis.key();
-                of.remove(&key).unwrap_or_else(|| panic!("no signature is kept for '{key}'"))
-            };
-            hypotheses.iter().map(signature).collect()
-        };
         Self {
             max_bounces,
-            fair: take(fair_readings()),
-            misreadings: take(known_misreadings(places)),
-            pairs: if of_all { take(known_pairs(places)) } else { Vec::new() },
+            fair: take(&mut of, &fair_readings()),
+            misreadings: take(&mut of, &known_misreadings(places)),
+            pairs: take(&mut of, &known_pairs(places)),
         }
     }
 }

@@ -14,10 +14,13 @@ pub(super) fn emission() -> Vec<Entry> {
             "cube-directions",
             section,
             "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.",
-            [(
-                "directions from the light come from the whole cube, not the sphere",
-                of(Emission::Cube),
-            )],
+            [
+                (
+                    "directions from the light come from the whole cube, not the sphere",
+                    of(Emission::Cube),
+                ),
+                ("x + y + z is held against 1, without squares", of(Emission::BelowPlane)),
+            ],
         ),
         Entry::new(
             "octant-directions",
@@ -61,12 +64,6 @@ pub(super) fn emission() -> Vec<Entry> {
                 "directions from the light come from outside the sphere",
                 of(Emission::OutsideSphere),
             )],
-        ),
-        Entry::new(
-            "rejection-without-squares",
-            section,
-            "The length of (x, y, z) has squares in it: repeat while x^2 + y^2 + z^2 > 1.",
-            [("x + y + z is held against 1, without squares", of(Emission::BelowPlane))],
         ),
     ]
 }
