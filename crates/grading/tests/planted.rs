@@ -22,14 +22,19 @@ const EMITTED: u64 = 200_000;
 static EXPECTATIONS: LazyLock<Expectations> =
     LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
 
+/// What a program makes of its numbers.
+type Warp = fn(&mut dyn FnMut() -> f32) -> f32;
+/// What it makes of its photons.
+type Change = fn(Vec<PhotonRecord>) -> Vec<PhotonRecord>;
+
 /// A fault that no entry of the table describes.
 enum Plant {
     /// In the tracer.
     Step(Variation),
     /// In the random numbers of a whole program.
-    Numbers(fn(&mut dyn FnMut() -> f32) -> f32),
+    Numbers(Warp),
     /// In what is done with the photons.
-    Records(fn(Vec<PhotonRecord>) -> Vec<PhotonRecord>),
+    Records(Change),
 }
 
 /// How two or more faults come together.
@@ -95,9 +100,12 @@ fn steps() -> Vec<(&'static str, Variation)> {
     ]
 }
 
-fn numbers() -> Vec<(&'static str, fn(&mut dyn FnMut() -> f32) -> f32)> {
+fn numbers() -> Vec<(&'static str, Warp)> {
     vec![
-        ("numbers squared", |rand| rand().powi(2)),
+        ("numbers squared", |rand| {
+            let number = rand();
+            number * number
+        }),
         ("roots of numbers", |rand| rand().sqrt()),
         ("numbers below 0.9", |rand| 0.9 * rand()),
         ("numbers above 0.1", |rand| 0.1 + 0.9 * rand().min(0.999_99)),
@@ -108,7 +116,7 @@ fn numbers() -> Vec<(&'static str, fn(&mut dyn FnMut() -> f32) -> f32)> {
     ]
 }
 
-fn records() -> Vec<(&'static str, fn(Vec<PhotonRecord>) -> Vec<PhotonRecord>)> {
+fn records() -> Vec<(&'static str, Change)> {
     vec![
         ("a third lost", |records| {
             records.into_iter().enumerate().filter(|it| it.0 % 3 > 0).map(|it| it.1).collect()
