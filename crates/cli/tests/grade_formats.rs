@@ -8,7 +8,7 @@ use std::process::Command;
 
 use serde_json::Value;
 use support::{fails, folder, json, run_line, stdout};
-use variants::variation::{Hemisphere, Simulation, Variation};
+use variants::variation::{Hemisphere, Simulation, Storage, Variation};
 
 const PHOTONS: u64 = 60_000;
 
@@ -227,7 +227,7 @@ fn every_submission_has_a_page_of_its_own() {
 #[test]
 fn photons_straight_from_the_light_are_not_plausible() {
     let folder = folder();
-    let of_light = Variation { direct_stored: true, ..Variation::default() };
+    let of_light = Variation { storage: Storage::All, ..Variation::default() };
     let path = list(folder.path(), "light.csv", of_light);
     let grade = json(run_line("grade --format json --emitted 60000 {}", &[&path]).success());
     assert_eq!((&grade["verdict"], &grade["score"]), (&"incorrect".into(), &2.0.into()));

@@ -1,30 +1,25 @@
-//! Measures what the grader expects of every hypothesis in a picture and prints it:
-//! `src/grading/picture/signatures.json`.
+//! Measures what the grader expects of hypotheses in pictures, and writes it to
+//! `golden/signatures-of-pictures.json`: of those that are not in it yet, or of all.
+//!
+//! `cargo run --release -p photon-mapping-grading --example grading_picture_signatures -- [all]`
 
 #[path = "common/shorten.rs"]
 mod shorten;
 
-use grading::picture::signature::PictureSignatures;
+use grading::picture::signature::Kept;
 use grading::picture::view::View;
 use grading::places::Places;
 use grading::signature::Effort;
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
-use shorten::shorten;
+use shorten::write_short;
 
 /// With these, a signature is known better than the leeway that a density has.
-const EFFORT: Effort = Effort {
-    main: 60_000_000,
-    fair: 12_000_000,
-    misreading: 4_000_000,
-    slow_misreading: 4_000_000,
-    pair: 4_000_000,
-};
+const EFFORT: Effort = Effort { main: 60_000_000, fair: 12_000_000, ..Effort::FULL };
 
 fn main() {
+    let of_all = std::env::args().nth(1).is_some();
+    let mut kept = if of_all { Kept::default() } else { Kept::of_assignment8() };
     let places = Places::new(&create_scene());
-    let view = View::new(&places);
-    let signatures = PictureSignatures::measure(&places, &view, MAX_PHOTON_BOUNCES, EFFORT);
-    let mut json = serde_json::to_value(&signatures).expect("signatures are numbers");
-    shorten(&mut json);
-    println!("{json}");
+    kept.complete(&places, &View::new(&places), MAX_PHOTON_BOUNCES, EFFORT);
+    write_short("golden/signatures-of-pictures.json", &kept);
 }

@@ -1,17 +1,19 @@
-//! Measures what the grader expects of every hypothesis and prints it: `src/grading/signatures.json`.
+//! Measures what the grader expects of hypotheses in lists, and writes it to `golden/signatures-of-lists.json`:
+//! of those that are not in it yet, or of all.
+//!
+//! `cargo run --release -p photon-mapping-grading --example grading_signatures -- [all]`
 
 #[path = "common/shorten.rs"]
 mod shorten;
 
 use grading::places::Places;
-use grading::signature::{Effort, Signatures};
+use grading::signature::{Effort, Kept};
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
-use shorten::shorten;
+use shorten::write_short;
 
 fn main() {
-    let places = Places::new(&create_scene());
-    let signatures = Signatures::measure(&places, MAX_PHOTON_BOUNCES, Effort::FULL);
-    let mut json = serde_json::to_value(&signatures).expect("signatures are numbers");
-    shorten(&mut json);
-    println!("{json}");
+    let of_all = std::env::args().nth(1).is_some();
+    let mut kept = if of_all { Kept::default() } else { Kept::of_assignment8() };
+    kept.complete(&Places::new(&create_scene()), MAX_PHOTON_BOUNCES, Effort::FULL);
+    write_short("golden/signatures-of-lists.json", &kept);
 }

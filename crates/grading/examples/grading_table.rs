@@ -9,21 +9,23 @@ use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::observe;
 use grading::places::{Place, Places};
 use grading::signature::{Effort, Signatures};
+use grading::statistics::Residual;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use rayon::prelude::*;
+use statrs::function::erf::erfc;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::pairs;
 use variants::reading::{Reading, TangentBasis};
-use variants::variation::{FACETS, Simulation, Variation};
+use variants::variation::{FACETS, Frame, Simulation, Variation};
 
 /// What a list tells besides positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// Nothing, and the number of photons sent out is not known.
+    /// Nothing, and the number of photons emitted is not known.
     PositionsAlone,
     /// Nothing, but the course knows the number.
     PositionsAndNumber,
@@ -52,8 +54,11 @@ fn main() {
     let small_limit = Signatures::measure(&places, SMALL_LIMIT, Effort::QUICK);
     let with_small_limit = Expectations::new(places, small_limit);
     false_alarms(alarms, &expectations, &with_small_limit);
+    if seeds == 0 {
+        return;
+    }
     detection(seeds, &only, &expectations, &with_small_limit);
-    if only.is_empty() {
+    if only.is_empty() && seeds > 0 {
         two_at_once(seeds, &expectations);
     }
 }
@@ -82,11 +87,11 @@ fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expe
     println!("## Correct submissions called incorrect\n");
     println!(
         "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to 1e-3 along \
-         the new direction, positions up to 0.007 off their surface, two generators, with and without the \
+         the new direction, left-handed frames, positions up to 0.007 off their surface, three generators (one of 15 bits), with and without the \
          number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a list, corrected for the number of tests; below \
          {SIGNIFICANCE:.0e} it is called incorrect.\n"
     );
-    println!("| sent out | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
+    println!("| emitted | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
     println!("|---|---|---|---|---|---|");
     let mut all = [0; 5];
     for (decade, (low, high, count, expectations)) in decades.into_iter().enumerate() {
@@ -132,14 +137,18 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
             _ => Offset::AlongDirection(settings.between(1e-5, 1e-3) as f32),
         },
     };
-    let variation = Variation { reading, ..Variation::default() };
+    // A left-handed frame is as good.
+    let frame = settings.one_of(&[Frame::AsRead, Frame::AsRead, Frame::Columns([1, 0, 2])]);
+    let variation = Variation { reading, frame, ..Variation::default() };
     let max_bounces = expectations.signatures.max_bounces;
     let simulation = Simulation::new(variation, 7_000_000 + index, emitted, max_bounces);
     let other_generator = emitted <= 200_000 && settings.one_of(&[true, false]);
-    let mut records = if other_generator {
-        simulation.trace_with(0..emitted, Drand48::new(index))
-    } else {
-        simulation.trace(0..emitted)
+    let mut records = match other_generator {
+        true if settings.one_of(&[true, false]) => {
+            simulation.trace_with(0..emitted, Drand48::new(index))
+        }
+        true => simulation.trace_with(0..emitted, FifteenBits(index as u32)),
+        false => simulation.trace(0..emitted),
     };
     let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
     shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
@@ -169,6 +178,18 @@ impl Iterator for Drand48 {
     fn next(&mut self) -> Option<f32> {
         self.0 = (self.0.wrapping_mul(0x5_DEEC_E66D).wrapping_add(0xB)) & ((1 << 48) - 1);
         Some((self.0 >> 24) as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+/// A generator of 15 bits, as behind `rand` where `RAND_MAX` is 32767.
+struct FifteenBits(u32);
+
+impl Iterator for FifteenBits {
+    type Item = f32;
+
+    fn next(&mut self) -> Option<f32> {
+        self.0 = self.0.wrapping_mul(214_013).wrapping_add(2_531_011);
+        Some(((self.0 >> 16) & 0x7FFF) as f32 / 32_768.0)
     }
 }
 
@@ -237,19 +258,18 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
     for content in CONTENTS {
         let what = match content {
             Content::PositionsAlone => "positions alone",
-            Content::PositionsAndNumber => "positions, and the number of photons sent out is known",
+            Content::PositionsAndNumber => "positions, and the number of photons emitted is known",
             Content::Everything => "all columns but `photon`",
         };
         println!("## Found and named: {what}\n");
         println!(
-            "{seeds} lists of {EMITTED} photons sent out a row, of all of its variants in turn. Columns: \
-             called correct, called incorrect without a name, and named, by number.\n"
+            "{seeds} lists of {EMITTED} photons emitted a row, of all of its ways in turn. The limit is how many of them \
+             the best test would find that knows both laws, by cells, and no fair reading but the closest.\n"
         );
-        let numbers: Vec<String> = (1..=ids.len()).map(|number| number.to_string()).collect();
-        println!("| what was done | correct | no name | {} |", numbers.join(" | "));
-        println!("|---{}|", "|---".repeat(ids.len() + 2));
-        let rows = std::iter::once(&"fair").chain(&ids).enumerate();
-        for (row, id) in rows.filter(|(_, id)| only.is_empty() || **id == only) {
+        println!("| what was done | limit | incorrect | named rightly | named wrongly |");
+        println!("|---|---|---|---|---|");
+        let rows = std::iter::once(&"fair").chain(&ids);
+        for id in rows.filter(|id| only.is_empty() || **id == only) {
             let variants: Vec<&Hypothesis> =
                 hypotheses.iter().filter(|hypothesis| hypothesis.id == *id).collect();
             let expectations =
@@ -261,20 +281,63 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
                     outcome(variant, content, 9_000_000 + seed, expectations)
                 })
                 .collect();
-            let count = |wanted: Outcome| match outcomes.iter().filter(|it| **it == wanted).count()
-            {
-                0 => String::new(),
-                count => count.to_string(),
+            let count = |is_counted: &dyn Fn(&Outcome) -> bool| {
+                outcomes.iter().filter(|outcome| is_counted(outcome)).count()
             };
-            let named: Vec<String> = ids.iter().map(|id| count(Outcome::Named(id))).collect();
-            let title =
-                if row == 0 { "a fair reading".to_owned() } else { format!("{row} `{id}`") };
-            let (correct, unnamed) = (count(Outcome::Correct), count(Outcome::Unnamed));
-            println!("| {title} | {correct} | {unnamed} | {} |", named.join(" | "));
+            let incorrect = count(&|outcome| *outcome != Outcome::Correct);
+            let right = count(&|outcome| *outcome == Outcome::Named(id));
+            let mut wrong: Vec<&str> = (outcomes.iter())
+                .filter_map(|outcome| match outcome {
+                    Outcome::Named(name) if name != id => Some(*name),
+                    _ => None,
+                })
+                .collect();
+            wrong.sort_unstable();
+            let limit = limit(id, content, expectations)
+                .map_or(String::new(), |limit| format!("{:.0}", limit * seeds as f64));
+            println!("| `{id}` | {limit} | {incorrect} | {right} | {} |", wrong.join(", "));
         }
         println!();
     }
     println!("`bounce-off-by-one` is judged with `--max-bounces {SMALL_LIMIT}`.\n");
+}
+
+/// How often, over the ways to `id`, the best test would find it that knows two laws: this one, and that of the closest
+/// fair reading.
+fn limit(id: &str, content: Content, expectations: &Expectations) -> Option<f64> {
+    let emitted = match content {
+        Content::PositionsAlone => None,
+        Content::PositionsAndNumber => Some(EMITTED as f64),
+        Content::Everything => return None,
+    };
+    let signatures = &expectations.signatures;
+    let of_id = misreadings().into_iter().zip(&signatures.misreadings);
+    let of_id: Vec<_> = of_id.filter(|(hypothesis, _)| hypothesis.id == id).collect();
+    let powers: Vec<f64> = of_id
+        .iter()
+        .map(|(_, signature)| {
+            let counts: Vec<f64> =
+                signature.cells.iter().map(|mean| mean * EMITTED as f64).collect();
+            let fair = signatures.fair.iter().map(|fair| {
+                let law = fair.law_of_cells(&signatures.correlation, 0.0);
+                let apart = Residual::new(&counts, &law, emitted).towards(&signature.cells).1;
+                0.5 * erfc((quantile(SIGNIFICANCE) - apart) / std::f64::consts::SQRT_2)
+            });
+            fair.fold(1.0, f64::min)
+        })
+        .collect();
+    (!powers.is_empty()).then(|| powers.iter().sum::<f64>() / powers.len() as f64)
+}
+
+/// How many standard deviations a normal number is above 0 with the chance `p`.
+fn quantile(p: f64) -> f64 {
+    let mut range = [0.0, 40.0];
+    for _ in 0..60 {
+        let middle = 0.5 * (range[0] + range[1]);
+        let is_low = 0.5 * erfc(middle / std::f64::consts::SQRT_2) > p;
+        range[usize::from(!is_low)] = middle;
+    }
+    range[0]
 }
 
 /// Lists in which two misreadings were made, which no single name tells.
@@ -282,7 +345,7 @@ fn two_at_once(seeds: u64, expectations: &Expectations) {
     let (pairs, singles) = (pairs(), misreadings());
     println!("## Two misreadings at once\n");
     println!(
-        "Lists of {EMITTED} photons sent out, of {} pairs of misreadings in turn, which have no name: what was \
+        "Lists of {EMITTED} photons emitted, of {} pairs of misreadings in turn, which have no name: what was \
          told of them.\n",
         pairs.len()
     );
@@ -314,7 +377,7 @@ fn two_at_once(seeds: u64, expectations: &Expectations) {
             }
         };
         let mut row = [0; 6];
-        let told: Vec<usize> = (0..10 * seeds).into_par_iter().map(tell).collect();
+        let told: Vec<usize> = (0..seeds * 3).into_par_iter().map(tell).collect();
         told.into_iter().for_each(|column| row[column] += 1);
         println!("| {what} | {} |", row.map(|n| n.to_string()).join(" | "));
     }

@@ -1,10 +1,11 @@
 //! What the bounces of a list say, where it has them.
 
-use super::judge_list::{Expectations, LEEWAY, SIGNIFICANCE, joined};
+use super::judge_list::{Expectations, SIGNIFICANCE};
 use super::observation::{BOUNCES, Counts, Observation};
 use super::places::Places;
 use super::signature::{Signature, classes};
 use super::statistics::{corrected, fit, grouped};
+use super::trial::{LEEWAY, joined};
 use super::verdict::{Finding, Weight};
 use variants::section::Section;
 
@@ -129,7 +130,7 @@ fn longest_path(
 }
 
 /// The chance that the photons of each bounce lie where they do by `signature`.
-fn of_each_bounce(
+pub(super) fn of_each_bounce(
     by_bounce: &[Counts],
     allowed: usize,
     size: f64,

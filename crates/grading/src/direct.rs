@@ -1,11 +1,13 @@
 //! Photons straight from the light, by where photons lie.
 
 use super::facts::straight_from_the_light;
-use super::judge_list::{Expectations, LEEWAY};
+use super::judge_list::Expectations;
 use super::observation::Observation;
 use super::signature::{Signature, classes};
 use super::statistics::towards;
+use super::trial::LEEWAY;
 use super::verdict::{Finding, Weight};
+use variants::variation::{Emission, Variation};
 
 /// So many standard deviations apart are the counts with such photons and without, at least, before the counts
 /// decide: each half is far out in either tail.
@@ -16,7 +18,7 @@ const PLAINLY: f64 = 5.0;
 const FEWEST: f64 = 50.0;
 
 /// Whether so many photons straight from the light as the directions say are ruled out by the counts, which fit
-/// `emitted` sent out: straight from the light come far more to the tops of the boxes, say, than by a bounce.
+/// `emitted` emitted: straight from the light come far more to the tops of the boxes, say, than by a bounce.
 pub fn is_ruled_out(observation: &Observation, emitted: f64, expectations: &Expectations) -> bool {
     let Some(to_light) = observation.to_light else { return false };
     let (reference, Some(stored)) = (&expectations.signatures.fair[0], with_direct(expectations))
@@ -57,8 +59,14 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
     };
     let misreadings = expectations.misreadings.iter().zip(&signatures.misreadings);
     // What gets below surfaces shows beneath the boxes.
+    // Other ways to leave the light are told by the facets that they leave in the dark.
+    let is_indirect = |variation: &Variation| {
+        !variation.stores_direct()
+            && !variation.goes_below()
+            && [Emission::Sphere, Emission::Cube].contains(&variation.emission)
+    };
     let indirect = misreadings
-        .filter(|(hypothesis, _)| !["direct-stored", "flipped-normal"].contains(&hypothesis.id))
+        .filter(|(hypothesis, _)| is_indirect(&hypothesis.variation))
         .map(|(_, signature)| signature);
     let indirect: Vec<_> = signatures.fair.iter().chain(indirect).collect();
     (0..places.facets.len()).find_map(|class| {

@@ -10,7 +10,7 @@ use variants::section::Section;
 
 /// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
 const MOST_REPEATED: f64 = 0.01;
-/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons sent out
+/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons emitted
 /// from all fair offsets, none was, and by chance, with six digits, it is one of ten million photons. A
 /// thousandth is left to programs that round more than the reference.
 const MOST_IDENTICAL: f64 = 1e-3;
@@ -60,7 +60,8 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} are not", of_all(counts.not_finite, records)),
             counts.not_finite == 0.0,
             Weight::Grave,
-            "Look for a vector of length 0 that is normalised: t where the normal is (-1, 0, 0).",
+            "Look for what makes numbers that are not finite: a division by 0, the root of a negative number, or a \
+             vector of length 0 that is normalised.",
         ),
         fact(
             "on surfaces",
@@ -89,7 +90,10 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
             !is_repeated && !is_identical,
             Weight::Fault,
-            if observation.repeats_by_rounding || observation.identical.is_none() {
+            if is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5) {
+                "Whole paths come again: check that the generator is seeded once for the whole run, and \
+                 that threads do not share a seed."
+            } else if observation.repeats_by_rounding || observation.identical.is_none() {
                 "Scattered rays hit the triangle they leave: start them a little above the surface, or \
                  check that no photon is inserted twice."
             } else {
@@ -157,16 +161,16 @@ pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> F
     Finding {
         check: "enough photons",
         section: Some(Section::PhotonStorage.title()),
-        expected: format!("the photons of at least {FEW_EMITTED} sent out"),
-        found: format!("{} photons, of about {fitted:.0} sent out", observation.records),
+        expected: format!("the photons of at least {FEW_EMITTED} emitted"),
+        found: format!("{} photons, of about {fitted:.0} emitted", observation.records),
         p_value: None,
         passed,
         weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },
         advice: if passed {
             "".into()
         } else {
-            "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it \
-             sent out fewer, grade with --emitted."
+            "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
+             emitted fewer, grade with --emitted."
                 .into()
         },
     }
@@ -188,7 +192,7 @@ pub fn straight_from_the_light(found: String, passed: bool) -> Finding {
 }
 
 /// What costs nothing, since the handout says that positions are sufficient.
-/// `emitted` is how many photons were sent out by the word of the course, and `is_ruled_out` whether the photons
+/// `emitted` is how many photons were emitted by the word of the course, and `is_ruled_out` whether the photons
 /// lie where those straight from the light do not.
 pub fn remarks(
     observation: &Observation,
@@ -209,7 +213,7 @@ pub fn remarks(
     if observation.has_odd_intensity {
         findings.push(remark(
             "intensity",
-            "one intensity for all: the light's colour divided by the photons sent out",
+            "one intensity for all: the light's colour divided by the photons emitted",
             "intensities that differ, or say nothing".to_owned(),
             false,
             "Set 'intensity' to lightIntensity as it is.",
@@ -220,8 +224,8 @@ pub fn remarks(
     {
         findings.push(remark(
             "intensity",
-            "the light's colour divided by the photons sent out",
-            format!("it is of {says:.0} sent out, not of {emitted:.0}"),
+            "the light's colour divided by the photons emitted",
+            format!("it is of {says:.0} emitted, not of {emitted:.0}"),
             false,
             "Set 'intensity' to lightIntensity as it is.",
         ));

@@ -1,43 +1,47 @@
 //! Which misreading explains what a submission shows?
 
+use super::bounces::of_each_bounce;
+use super::judge_list::Expectations;
 use super::observation::Observation;
 use super::places::Places;
+use super::self_hits::{explain_by_self_hits, shows_self_hits};
 use super::signature::{Signature, Signatures, classes};
-use super::statistics::{Fit, Matrix, fit, grouped, towards};
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, no_offset};
-use variants::pairs::PAIR;
-use variants::reading::TangentBasis;
-use variants::variation::{FACETS, survival_of_facets};
+use super::statistics::{Fit, Law, Matrix, Residual, corrected, fit, grouped};
+use super::trial::{LEAST_EXPECTED, LEEWAY, LEEWAY_OF_CELLS};
+use variants::hypotheses::{
+    BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, no_offset, repeated_paths, stored_twice,
+};
+use variants::pairs::{OTHER_ROULETTE, PAIR};
+use variants::variation::{FACETS, Storage};
 
-/// By which part of itself a misreading's mean may be off: the student's program is not ours, and the
-/// misreading is not all of it.
-const LEEWAY: f64 = 0.012;
-/// The same for cells, of which a larger part lies along an edge.
-const LEEWAY_OF_CELLS: f64 = 0.03;
-/// Cells are joined until so many photons are expected in each.
-const LEAST_EXPECTED: f64 = 25.0;
-/// A misreading that would show so little as what is seen less often than this explains nothing.
-const LEAST_LIKELY: f64 = 1e-4;
+/// A misreading that would show what is seen, or something stranger, less often than this explains nothing.
+const LEAST_LIKELY: f64 = 3e-3;
+/// The same of self-hits, whose law is only roughly known.
+const SELF_HITS_LEAST: f64 = 1e-4;
+/// One that is as rare as this is ruled out, whatever its cells say.
+const RULED_OUT: f64 = 1e-9;
+/// By hundreds of planted faults: how much likelier, before a list is seen, all faults that are not in the table are
+/// together than one that is.
+const OUTSIDE: f64 = 0.01;
+/// The same beside self-hits, whose law is only roughly known: much seems to be elsewhere.
+const SELF_HITS_OUTSIDE: f64 = 1e-4;
+/// A name is given when it is as sure as this.
+const SURE: f64 = 0.95;
+/// Nothing is surer than this: there may be mistakes of which nobody has thought.
+const SUREST: f64 = 0.999;
+/// Of identical positions, more than this part of all makes every path a copy of another.
+const ALL_COPIED: f64 = 0.95;
 /// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
 /// misreadings without them explain nothing.
 const MANY_REPEATED: f64 = 0.03;
 /// Of more bounces than these, hardly a path has the last.
 const SMALL_LIMIT: i32 = 12;
-/// How many standard deviations the places of self-hits must be towards those of first hits: what is
-/// stored twice for another reason is not.
-const FIRST_HITS_SHOW: f64 = 6.0;
-/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first hits,
-/// which are not stored, they make at most so many known. Both are out of reach for rounding, which
-/// brings half of the starts below the surface.
-const LEAST_SCATTERED: f64 = 0.5;
-const MOST_FIRST_HITS: f64 = 0.5;
-/// By which part of itself the number of photons that self-hits leave may be off: its prediction takes the same
-/// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
-const LEEWAY_OF_LOSS: f64 = 0.12;
-
-/// The logarithm of how much rarer two misreadings at once are than one of them, and photons that are right but for their
-/// number.
-const RARER: f64 = -6.0;
+/// The logarithm of how much rarer than one misreading of the table two of them at once are.
+const RARER_PAIR: f64 = -6.0;
+/// The same of each roulette that has no name.
+const RARER_ROULETTE: f64 = -3.0;
+/// The same of photons that are right but for their number.
+const RARER_NUMBER: f64 = -2.0;
 
 /// A misreading that explains a submission, or two at once.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,9 +57,12 @@ pub struct Explanation {
 impl Explanation {
     /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with all others'.
     pub(super) fn new(hypothesis: &Hypothesis, mut fit: Fit) -> Self {
-        if hypothesis.misreading.is_none() {
-            fit.log_likelihood += RARER;
-        }
+        fit.log_likelihood += match hypothesis.id {
+            PAIR => RARER_PAIR,
+            OTHER_ROULETTE => RARER_ROULETTE,
+            FAIR => RARER_NUMBER,
+            _ => 0.0,
+        };
         Self { hypothesis: hypothesis.clone(), fit, confidence: 0.0 }
     }
 
@@ -73,19 +80,6 @@ impl Explanation {
     }
 }
 
-/// What is known of the misreadings.
-#[derive(Clone, Copy, Debug)]
-pub struct Known<'a> {
-    /// The fair readings.
-    pub fair: &'a [Hypothesis],
-    /// The misreadings.
-    pub misreadings: &'a [Hypothesis],
-    /// Two of them at once.
-    pub pairs: &'a [Hypothesis],
-    /// The signatures of all.
-    pub signatures: &'a Signatures,
-}
-
 /// Whether a bounce fewer than `max_bounces`, which are allowed, can show at all.
 pub fn bounces_show(max_bounces: i32) -> bool {
     max_bounces <= SMALL_LIMIT
@@ -95,35 +89,42 @@ pub fn bounces_show(max_bounces: i32) -> bool {
 pub fn explain(
     observation: &Observation,
     emitted: Option<f64>,
-    places: &Places,
-    known: Known,
+    expectations: &Expectations,
 ) -> Option<Explanation> {
-    let max_bounces = known.signatures.max_bounces;
+    let Expectations { places, fair, misreadings, pairs, signatures, .. } = expectations;
+    let max_bounces = signatures.max_bounces;
     let repeated = observation.repeated / observation.counts.on_surfaces().max(1.0);
     let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
     let straight = observation.to_light.and_then(|to_light| to_light.part_straight());
     let is_short = observation.bounces.is_some_and(|[first, last]| {
         i32::from(last - first) + 1 < max_bounces && max_bounces <= SMALL_LIMIT
     });
+    if let Some(copied) = copied(observation) {
+        return Some(copied);
+    }
     let is_possible = |Hypothesis { id, variation, .. }: &Hypothesis| {
         if *id == "nan-frame" {
             return of_nan > 0.2;
         }
-        let is_below =
-            variation.flipped_normal || variation.reading.tangent_basis == TangentBasis::Transposed;
+        let is_below = variation.goes_below();
         let is_straight = match straight {
-            Some(part) if variation.direct_stored => part > 0.5,
+            Some(part) if variation.stores_direct() => part > 0.5,
             Some(part) => is_below || variation.fewer_bounces > 0 || part < 0.01,
             None => true,
         };
-        let is_long =
-            !is_short || is_below || variation.direct_stored || variation.fewer_bounces > 0;
-        of_nan == 0.0 && (is_below || repeated < MANY_REPEATED) && is_straight && is_long
+        let is_long = !is_short
+            || is_below
+            || variation.storage != Storage::Indirect
+            || variation.most_bounces.is_some()
+            || variation.fewer_bounces > 0;
+        // Directions below the surface lead back to it, but not to the very same place.
+        let may_repeat = is_below && !observation.repeats_by_rounding;
+        of_nan == 0.0 && (may_repeat || repeated < MANY_REPEATED) && is_straight && is_long
     };
-    let comparison = Comparison::new(observation, emitted, places, known.signatures);
-    let signatures = known.signatures.misreadings.iter().chain(&known.signatures.pairs);
-    let mut candidates: Vec<Explanation> = (known.misreadings.iter().chain(known.pairs))
-        .zip(signatures)
+    let comparison = Comparison::new(observation, emitted, places, signatures);
+    let of_misreadings = signatures.misreadings.iter().chain(&signatures.pairs);
+    let mut candidates: Vec<Explanation> = (misreadings.iter().chain(pairs))
+        .zip(of_misreadings)
         .filter(|(hypothesis, _)| is_possible(hypothesis))
         .filter(|(hypothesis, _)| hypothesis.id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces))
         .map(|(hypothesis, signature)| Explanation::new(hypothesis, comparison.fit(signature)))
@@ -133,36 +134,39 @@ pub fn explain(
         if !shows_self_hits(observation) {
             return None;
         }
-        let fit = explain_by_self_hits(observation, emitted, places, known)?;
+        let fit = explain_by_self_hits(observation, emitted, expectations)?;
         let hypothesis = no_offset([0.0; FACETS]);
-        return Some(Explanation { hypothesis, fit, confidence: 1.0 - others });
+        return Some(Explanation { hypothesis, fit, confidence: SUREST.min(1.0 - others) });
     }
     if of_nan == 0.0 && !is_short {
         // Photons lost or stored twice all over the scene are no misreading, and neither is what only resembles one.
-        let of_any_number = Comparison { emitted: None, ..comparison };
-        let fair = known.fair.iter().zip(&known.signatures.fair);
+        let of_any_number = Comparison { emitted: None, ..comparison.clone() };
+        let fair = fair.iter().zip(&signatures.fair);
         candidates.extend(
             fair.map(|(reading, signature)| {
                 Explanation::new(reading, of_any_number.fit(signature))
             }),
         );
     }
-    most_likely(candidates)
+    most_likely(candidates, |best| comparison.elsewhere(best, expectations))
 }
 
-/// Whether photons at the same place are there because rays start below the surface: by rounding, or since they come from
-/// behind it. Directions below the surface lead back to it from the front, and from farther away.
-fn shows_self_hits(observation: &Observation) -> bool {
-    let is_from_behind = observation.to_light.is_some_and(|to_light| {
-        let from_behind = to_light.from_behind as f64;
-        // Of more than half of all photons, it is the sign of the column.
-        (0.5 * observation.repeated..0.5 * to_light.set as f64).contains(&from_behind)
-    });
-    observation.repeats_by_rounding || is_from_behind
+/// What made every photon come more than once, to the last bit.
+fn copied(observation: &Observation) -> Option<Explanation> {
+    let copies = observation.copies?;
+    let fit = Fit { distance: 0.0, degrees: 0, p_value: 1.0, log_likelihood: 0.0, emitted: 0.0 };
+    let hypothesis =
+        if copies.side_by_side > ALL_COPIED { stored_twice() } else { repeated_paths() };
+    let confidence = SUREST;
+    (copies.all > ALL_COPIED).then_some(Explanation { hypothesis, fit, confidence })
 }
 
 /// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.
+#[derive(Clone)]
 struct Comparison<'a> {
+    observation: &'a Observation,
+    places: &'a Places,
+    max_bounces: i32,
     emitted: Option<f64>,
     of_classes: Vec<f64>,
     of_cells: Vec<f64>,
@@ -172,9 +176,9 @@ struct Comparison<'a> {
 
 impl<'a> Comparison<'a> {
     fn new(
-        observation: &Observation,
+        observation: &'a Observation,
         emitted: Option<f64>,
-        places: &Places,
+        places: &'a Places,
         signatures: &'a Signatures,
     ) -> Self {
         let of_classes = classes(&observation.counts, places);
@@ -184,6 +188,9 @@ impl<'a> Comparison<'a> {
         let groups = places.joined_cells(&reference.cells, size, LEAST_EXPECTED);
         let count = groups.iter().max().map_or(0, |last| last + 1);
         Self {
+            observation,
+            places,
+            max_bounces: signatures.max_bounces,
             emitted,
             of_classes,
             of_cells: grouped(&observation.counts.cells, &groups, count),
@@ -192,101 +199,69 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smaller of both p-values.
+    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smallest p-value, with regard
+    /// to their number.
     fn fit(&self, signature: &Signature) -> Fit {
         let by_class = fit(&self.of_classes, &signature.law_of_classes(LEEWAY), self.emitted);
-        let (groups, count) = &self.groups;
-        let law = signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count);
-        let by_cell = fit(&self.of_cells, &law, self.emitted);
-        let p_value = by_class.p_value.min(by_cell.p_value);
+        let by_cell = fit(&self.of_cells, &self.law_of_cells(signature), self.emitted);
+        let size = by_class.emitted;
+        let allowed = usize::try_from(self.max_bounces).unwrap_or(0);
+        let of_bounces = self.observation.by_bounce.as_ref().map(|by_bounce| {
+            of_each_bounce(by_bounce, allowed, size, Some(size), signature, self.places)
+        });
+        let p_values = [Some(by_class.p_value), Some(by_cell.p_value), of_bounces];
+        let smallest = p_values.into_iter().flatten().fold(1.0, f64::min);
+        let p_value = corrected(smallest, p_values.iter().flatten().count());
         Fit { p_value, log_likelihood: by_cell.log_likelihood, ..by_class }
     }
-}
 
-/// Whether self-hits explain places at which several photons lie. How many there are depends on rounding, from
-/// facet to facet and from bounce to bounce, so their counts follow no law; but what they leave when every
-/// place counts once does: the places of scattered photons, of which a part is lost, and of first hits, of
-/// which a part becomes known.
-fn explain_by_self_hits(
-    observation: &Observation,
-    emitted: Option<f64>,
-    places: &Places,
-    known: Known,
-) -> Option<Fit> {
-    let direct_stored =
-        known.misreadings.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
-    let with_first_hits = &known.signatures.misreadings[direct_stored].classes;
-    let law = known.signatures.fair[0].law_of_classes(LEEWAY);
-    let distinct = classes(&observation.distinct, places);
-    let of_distinct = fit(&distinct, &law, emitted);
-    let shows_first_hits = towards(&distinct, &law, with_first_hits, emitted) > FIRST_HITS_SHOW;
-    let size = of_distinct.emitted;
-    let is_between = |class: usize| {
-        let scattered = size * law.mean[class];
-        let first = size * (with_first_hits[class] - law.mean[class]).max(0.0);
-        let by_chance = 5.0 * (scattered + first).sqrt() + 5.0;
-        let least = LEAST_SCATTERED * scattered - by_chance;
-        let most = 1.1 * scattered + MOST_FIRST_HITS * first + by_chance;
-        // Of an unknown size, only the shape of what is left tells.
-        emitted.is_none() || (least..most).contains(&distinct[class])
-    };
-    let explains = shows_first_hits
-        && (0..places.facets.len()).all(is_between)
-        && emitted.is_none_or(|emitted| {
-            let counts = classes(&observation.counts, places);
-            loses_what_self_hits_lose(emitted, &counts, &distinct, with_first_hits, known)
-        });
-    explains.then_some(of_distinct)
-}
-
-/// Whether facets that the light does not reach have as many photons fewer as self-hits lose on their way: `counts`,
-/// at `distinct` places, of `emitted` sent out.
-fn loses_what_self_hits_lose(
-    emitted: f64,
-    counts: &[f64],
-    distinct: &[f64],
-    with_first_hits: &[f64],
-    known: Known,
-) -> bool {
-    let reference = &known.signatures.fair[0];
-    let first_hits =
-        |facet: usize| emitted * (with_first_hits[facet] - reference.classes[facet]).max(0.0);
-    let scattered = |facet: usize| emitted * reference.classes[facet];
-    let (lit, dark): (Vec<usize>, Vec<usize>) =
-        (0..FACETS).partition(|facet| first_hits(*facet) > scattered(*facet));
-    let of_dark = |of: &dyn Fn(usize) -> f64| dark.iter().map(|facet| of(*facet)).sum::<f64>();
-    let found = of_dark(&|facet| distinct[facet]);
-    let left = found / of_dark(&scattered).max(1.0);
-
-    let survival = survival_of_facets();
-    let (mut survive, mut leave) = (0.0, 0.0);
-    for facet in lit {
-        let (first, survival) = (first_hits(facet), f64::from(survival[facet]));
-        let arriving = left * scattered(facet) + first;
-        // Of first hits, those are known that a self-hit followed. What follows that may be rarer: on some planes
-        // rounding brings no point below twice.
-        let again = ((distinct[facet] - left * scattered(facet)) / first).clamp(0.0, survival);
-        let known_again = counts[facet] - distinct[facet] + first * again;
-        let once_more = (1.0 - arriving * again / known_again.max(1.0)).clamp(0.0, survival);
-        survive += first * survival;
-        leave += first
-            * (survival - again + again * (survival - once_more) / (1.0 - once_more).max(1e-9));
+    fn law_of_cells(&self, signature: &Signature) -> Law {
+        let (groups, count) = &self.groups;
+        signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count)
     }
-    let part = leave / survive;
-    let of_bounce = |bounce: usize| of_dark(&|facet| reference.by_bounce[bounce][facet]);
-    let bounces = 0..reference.by_bounce.len();
-    let all: f64 = bounces.clone().map(of_bounce).sum();
-    let lost: f64 =
-        bounces.map(|bounce| part.powi(bounce as i32 + 1) * of_bounce(bounce)).sum::<f64>() / all;
-    let by_chance = 3.0 / found.max(1.0).sqrt();
-    (left / lost - 1.0).abs() < LEEWAY_OF_LOSS + by_chance
+
+    /// The evidence for something that is not in the table, beside `best`: between it and another hypothesis, or
+    /// with another part of paths of each length.
+    fn elsewhere(&self, best: &Explanation, expectations: &Expectations) -> f64 {
+        let Expectations { misreadings, pairs, signatures, .. } = expectations;
+        let (groups, count) = &self.groups;
+        let all = || {
+            let of_misreadings = signatures.misreadings.iter().chain(&signatures.pairs);
+            misreadings.iter().chain(pairs).zip(of_misreadings)
+        };
+        let is_best = |hypothesis: &Hypothesis| hypothesis.key() == best.hypothesis.key();
+        let Some((_, signature)) = all().find(|(hypothesis, _)| is_best(hypothesis)) else {
+            return 0.0;
+        };
+        let law = self.law_of_cells(signature);
+        let others = all().filter(|(other, _)| other.id != best.hypothesis.id);
+        let fair = signatures.fair.iter();
+        let others = others.map(|(_, signature)| signature).chain(fair);
+        let of_cells = Residual::new(&self.of_cells, &law, self.emitted)
+            .elsewhere(others.map(|other| grouped(&other.cells, groups, *count)));
+        let law = signature.law_of_classes(LEEWAY);
+        let lengths = signature.by_bounce.iter();
+        let with_more = lengths.map(|more| law.mean.iter().zip(more).map(|(a, b)| a + b).collect());
+        let of_lengths = Residual::new(&self.of_classes, &law, self.emitted).elsewhere(with_more);
+        0.5 * (of_cells + of_lengths)
+    }
 }
 
-/// The likeliest of `candidates`, if it explains what is seen, and no other does as well.
-pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanation> {
+/// The likeliest of `candidates`, if it explains what is seen, and neither another one does as well nor something that is
+/// not in the table: `elsewhere` has the evidence for that, beside the best.
+pub(super) fn most_likely(
+    mut candidates: Vec<Explanation>,
+    elsewhere: impl Fn(&Explanation) -> f64,
+) -> Option<Explanation> {
+    candidates.retain(|candidate| candidate.fit.p_value >= RULED_OUT);
     candidates.sort_by(|a, b| b.fit.log_likelihood.total_cmp(&a.fit.log_likelihood));
     let best = candidates.first()?.clone();
-    if best.fit.p_value < LEAST_LIKELY {
+    let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
+    let (least, outside) = match best.hypothesis.id {
+        "no-offset" => (SELF_HITS_LEAST, SELF_HITS_OUTSIDE),
+        _ => (LEAST_LIKELY, OUTSIDE),
+    };
+    if best.fit.p_value < least || is_fair {
         return None;
     }
     // Ways to the same misreading do not compete with each other.
@@ -298,7 +273,7 @@ pub(super) fn most_likely(mut candidates: Vec<Explanation>) -> Option<Explanatio
             sum += (other.fit.log_likelihood - best.fit.log_likelihood).exp();
         }
     }
-    let confidence = 1.0 / sum;
-    let is_fair = best.hypothesis.misreading.is_none() && !best.is_pair();
-    (confidence > 0.95 && !is_fair).then_some(Explanation { confidence, ..best })
+    sum += outside * elsewhere(&best);
+    let confidence = (1.0 / sum).min(SUREST);
+    (confidence > SURE).then_some(Explanation { confidence, ..best })
 }

@@ -1,7 +1,7 @@
 //! What to make of an intensity that speaks of another number of photons than the list has.
 //!
 //! A wrong intensity costs nothing, but half of all photons missing does; of a list that says how many were
-//! sent out by its intensity alone, nobody can tell the one from the other. Only where the intensity is off by
+//! emitted by its intensity alone, nobody can tell the one from the other. Only where the intensity is off by
 //! a constant that students are known to multiply by, it is believed to be the intensity.
 
 use std::f64::consts::PI;
@@ -32,12 +32,12 @@ pub const SLIPS: [Slip; 9] = [
     Slip { name: "1/N", factor: 1.0, power: 2.0 },
 ];
 
-/// No mistake stores more than this part of the photons sent out, unless it stores some twice: with those straight
+/// No mistake stores more than this part of the photons emitted, unless it stores some twice: with those straight
 /// from the light, it is 0.29.
 const MOST_STORED: f64 = 1.0 / 3.0;
 
 impl Slip {
-    /// How many photons were sent out, where the intensity has this factor and says `number`.
+    /// How many photons were emitted, where the intensity has this factor and says `number`.
     pub fn emitted(&self, number: f64) -> f64 {
         (self.factor * number.powf(1.0 / self.power)).round()
     }
@@ -66,7 +66,7 @@ pub fn cannot_be(number: f64, stored: f64) -> bool {
 pub fn impossible(number: f64, fitted: f64, p_value: f64) -> Finding {
     Finding {
         found: format!(
-            "the intensity says {number:.0} sent out, which cannot be: the photons fit {fitted:.0}"
+            "the intensity says {number:.0} emitted, which cannot be: the photons fit {fitted:.0}"
         ),
         weight: Weight::Remark,
         advice: "Set 'intensity' to lightIntensity as it is.".into(),
@@ -74,12 +74,12 @@ pub fn impossible(number: f64, fitted: f64, p_value: f64) -> Finding {
     }
 }
 
-/// The fault that the intensity says `number`, and the photons fit `fitted` sent out.
+/// The fault that the intensity says `number`, and the photons fit `fitted` emitted.
 pub fn contradiction(number: f64, fitted: f64, p_value: f64) -> Finding {
     Finding {
         check: "number by intensity",
         section: Some(Section::PhotonStorage.title()),
-        expected: "photons for as many sent out as the intensity says".to_owned(),
+        expected: "photons for as many emitted as the intensity says".to_owned(),
         found: format!("the intensity says {number:.0}, the photons fit {fitted:.0}"),
         p_value: Some(p_value),
         passed: false,

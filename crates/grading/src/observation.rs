@@ -4,25 +4,19 @@ use std::collections::HashSet;
 
 use super::crowding::crowding;
 use super::places::{Place, Places};
+use super::repeats::{Copies, Repeat, are_by_rounding, copies, repeats};
 use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 
-/// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
-const SAME_PLACE: f64 = 2e-5;
 /// An intensity whose inverse is less is none of so many photons, but a colour left as it is, perhaps times a
 /// constant.
 const LEAST_NUMBER: f64 = 100.0;
-/// How many neighbours are looked at before a photon counts as alone.
-const MOST_NEIGHBOURS: usize = 256;
 /// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with three, three in
-/// a hundred of the photons of ten million sent out.
+/// a hundred of the photons of ten million emitted.
 const FEWEST_DECIMALS: i32 = 4;
 /// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
 const EXACT_DECIMALS: i32 = 6;
-/// Rounding brings a hit no farther than this from the hit it repeats: four units in the last place of an f32
-/// between 1 and 2. Rays that start 1e-5 above a surface and go below it come back farther away.
-const BY_ROUNDING: f64 = 1e-6;
 /// How many bounces are counted apart.
 pub const BOUNCES: usize = 4;
 
@@ -111,6 +105,8 @@ pub struct Observation {
     pub repeated: f64,
     /// How many lie where another one does to the last bit; nothing where that may come from rounding.
     pub identical: Option<f64>,
+    /// The same by their order in the list.
+    pub copies: Option<Copies>,
     /// Whether most of those that are repeated lie where another one does up to the rounding of an f32, and
     /// positions have enough decimals to tell.
     pub repeats_by_rounding: bool,
@@ -124,7 +120,7 @@ pub struct Observation {
     /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
     /// then none counts as repeated.
     pub few_decimals: Option<i32>,
-    /// How many photons were sent out by the word of the intensities, if they agree with each other.
+    /// How many photons were emitted by the word of the intensities, if they agree with each other.
     pub emitted_by_intensity: Option<f64>,
     /// Whether the list has intensities that are of no use.
     pub has_odd_intensity: bool,
@@ -195,6 +191,7 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         records: list.records.len() as u64,
         repeated: count(Repeat::Closely) + count(Repeat::ByRounding) + identical,
         repeats_by_rounding,
+        copies: decimals.is_none().then(|| copies(&list.records)),
         crowding: crowding(&on_facets, unit),
         gaps,
         identical: decimals.is_none().then_some(identical),
@@ -219,7 +216,7 @@ fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
     [later.count() as u64, without.count() as u64]
 }
 
-/// The intensity is the light's colour, which is white, divided by the photons it sends out.
+/// The intensity is the light's colour, which is white, divided by the photons it emits.
 fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
     let first = f64::from(records.first()?.intensity.x);
     let is_like_first = |intensity: Vec3| {
@@ -231,50 +228,6 @@ fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
     let agree = is_a_number && records.iter().all(|record| is_like_first(record.intensity));
     // Of f32, whose 7 digits leave the last of a larger number open.
     agree.then(|| if emitted < 1e6 { emitted.round() } else { emitted })
-}
-
-/// Whether a photon lies where another one does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Repeat {
-    No,
-    /// Within [`SAME_PLACE`].
-    Closely,
-    /// Within [`BY_ROUNDING`].
-    ByRounding,
-    Exactly,
-}
-
-/// Whether most of the photons that repeat another one are no farther from it than rounding.
-fn are_by_rounding(repeats: &[Repeat]) -> bool {
-    let count = |wanted| repeats.iter().filter(|repeat| **repeat == wanted).count();
-    count(Repeat::Exactly) + count(Repeat::ByRounding) > count(Repeat::Closely)
-}
-
-/// Which photons have another one at the same place that comes after them on a sweep.
-fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat> {
-    // Askew to all facets, so that few photons are abreast.
-    let way = DVec3::new(0.5342, 0.6171, 0.5777);
-    let mut sweep: Vec<(f64, DVec3, usize)> = Vec::new();
-    for (index, (record, place)) in records.iter().zip(located).enumerate() {
-        if matches!(place, Place::Cell { .. } | Place::Corner { .. }) {
-            let position = record.position.as_dvec3();
-            sweep.push((position.dot(way), position, index));
-        }
-    }
-    sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let mut repeats = vec![Repeat::No; records.len()];
-    for (at, (along, position, index)) in sweep.iter().enumerate() {
-        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
-        let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
-        let closest = near.map(|other| other.1.distance_squared(*position)).reduce(f64::min);
-        repeats[*index] = match closest {
-            Some(0.0) => Repeat::Exactly,
-            Some(squared) if squared <= BY_ROUNDING.powi(2) => Repeat::ByRounding,
-            Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
-            _ => Repeat::No,
-        };
-    }
-    repeats
 }
 
 fn directions(

@@ -1,33 +1,34 @@
 //! How many photons each hypothesis leaves where, measured by tracing it.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+pub use super::kept::Effort;
+use super::kept::take;
 use super::observation::{BOUNCES, Counts};
 use super::places::Places;
 use super::statistics::{Law, Matrix};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings};
-use variants::pairs::pairs;
+use variants::hypotheses::{Hypothesis, fair_readings, misreadings};
+use variants::pairs::unnamed;
 use variants::variation::Simulation;
 
 /// How many photons a thread traces at once.
 const PIECE: u64 = 1 << 16;
 /// By which part of itself the number of photons in corners may be off.
 const LEEWAY_OF_CORNERS: f64 = 0.5;
-/// A bounce fewer shows so little that with fewer photons than this, chance would be most of what it seems to do.
-const WITH_FEWER_BOUNCES: u64 = 4_000_000;
 /// The seed of the signatures. Submissions that follow our streams have another.
 const SEED: u64 = 0x9_2019;
 
-/// Where one hypothesis leaves its photons, for each photon sent out. A class is a facet, or all of
+/// Where one hypothesis leaves its photons, for each photon emitted. A class is a facet, or all of
 /// [`super::places::Place::Corner`], or all of [`super::places::Place::Footprint`], in this order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Signature {
-    /// The photons sent out to measure it.
+    /// The photons emitted to measure it.
     pub emitted: f64,
     /// Photons by cell.
     pub cells: Vec<f64>,
@@ -37,12 +38,12 @@ pub struct Signature {
     pub classes: Vec<f64>,
     /// The covariance of these.
     pub covariance: Matrix,
-    /// By bounce, photons by class.
+    /// By bounce, from the first that is stored on, photons by class.
     pub by_bounce: Vec<Vec<f64>>,
 }
 
 /// The signatures of all hypotheses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Signatures {
     /// How often photons may bounce.
     pub max_bounces: i32,
@@ -50,80 +51,70 @@ pub struct Signatures {
     pub fair: Vec<Signature>,
     /// For [`misreadings`], in their order.
     pub misreadings: Vec<Signature>,
-    /// For [`pairs`], in their order.
+    /// For [`unnamed`], in their order; nothing where these are not looked for.
     pub pairs: Vec<Signature>,
     /// How the numbers of photons in two cells go together under the reference: their correlation.
     pub correlation: Matrix,
 }
 
-/// With how many photons signatures are measured.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// For the reference and the letter of the handout.
-    pub main: u64,
-    /// For the other fair readings.
-    pub fair: u64,
-    /// For each misreading that the fast path can trace.
-    pub misreading: u64,
-    /// For each other misreading.
-    pub slow_misreading: u64,
-    /// For two misreadings at once.
-    pub pair: u64,
+/// Signatures as they are kept: each under what its hypothesis is called.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    /// See [`Signatures::correlation`].
+    pub correlation: Matrix,
+    /// By [`Hypothesis::key`].
+    pub of: BTreeMap<String, Signature>,
 }
 
-impl Effort {
-    /// For the signatures that are kept.
-    pub const FULL: Self = Self {
-        main: 100_000_000,
-        fair: 30_000_000,
-        misreading: 4_000_000,
-        slow_misreading: 4_000_000,
-        pair: 4_000_000,
-    };
-    /// For a limit of bounces of a course's own, in a few seconds.
-    pub const QUICK: Self = Self {
-        main: 8_000_000,
-        fair: 2_000_000,
-        misreading: 500_000,
-        slow_misreading: 200_000,
-        pair: 60_000,
-    };
-}
-
-impl Signatures {
-    /// Those of the assignment as it stands, measured beforehand: a test measures some of them again.
+impl Kept {
+    /// Those of the assignment as it stands: a test measures some of them again.
     pub fn of_assignment8() -> Self {
-        let json = include_str!("signatures.json");
+        let json = include_str!("../../../golden/signatures-of-lists.json");
         serde_json::from_str(json)
             .expect("the signatures that are part of the program are well formed")
     }
 
+    /// Measures what is missing, for photons that may bounce `max_bounces` times.
+    pub fn complete(&mut self, places: &Places, max_bounces: i32, effort: Effort) {
+        let measure = |hypothesis: &Hypothesis| {
+            measure(hypothesis, places, effort.photons(hypothesis), max_bounces)
+        };
+        let reference = &fair_readings()[0];
+        if self.correlation.is_empty() {
+            let (signature, of_cells) = measure(reference);
+            self.correlation = correlate(&of_cells);
+            self.of.insert(reference.key(), signature);
+        }
+        let all = [fair_readings(), misreadings(), unnamed()].concat();
+        let missing =
+            all.par_iter().filter(|it| effort.photons(it) > 0 && !self.of.contains_key(&it.key()));
+        let measured: Vec<_> = missing.map(|it| (it.key(), measure(it).0)).collect();
+        self.of.extend(measured);
+    }
+}
+
+impl Signatures {
+    /// Those of the assignment as it stands, measured beforehand.
+    pub fn of_assignment8() -> Self {
+        Self::of_kept(MAX_BOUNCES, Kept::of_assignment8())
+    }
+
     /// Measures all signatures for photons that may bounce `max_bounces` times.
     pub fn measure(places: &Places, max_bounces: i32, effort: Effort) -> Self {
-        let mut correlation = Matrix::new();
-        let mut fair = Vec::new();
-        for (index, hypothesis) in fair_readings().iter().enumerate() {
-            let emitted = if index < 2 { effort.main } else { effort.fair };
-            let (signature, of_cells) = measure(hypothesis, places, emitted, max_bounces);
-            if index == 0 {
-                correlation = correlate(&of_cells);
-            }
-            fair.push(signature);
+        let mut kept = Kept::default();
+        kept.complete(places, max_bounces, effort);
+        Self::of_kept(max_bounces, kept)
+    }
+
+    /// Those in `kept`, which has all of them, for photons that may bounce `max_bounces` times.
+    pub fn of_kept(max_bounces: i32, Kept { correlation, mut of }: Kept) -> Self {
+        Self {
+            max_bounces,
+            fair: take(&mut of, &fair_readings()),
+            misreadings: take(&mut of, &misreadings()),
+            pairs: take(&mut of, &unnamed()),
+            correlation,
         }
-        let of_misreading = |hypothesis: &Hypothesis| {
-            let emitted = match hypothesis.variation.is_fast() {
-                _ if hypothesis.id == BOUNCE_OFF_BY_ONE => {
-                    effort.misreading.max(WITH_FEWER_BOUNCES)
-                }
-                true => effort.misreading,
-                false => effort.slow_misreading,
-            };
-            measure(hypothesis, places, emitted, max_bounces).0
-        };
-        let misreadings = misreadings().par_iter().map(of_misreading).collect();
-        let of_pair = |pair: &Hypothesis| measure(pair, places, effort.pair, max_bounces).0;
-        let pairs = pairs().par_iter().map(of_pair).collect();
-        Self { max_bounces, fair, misreadings, pairs, correlation }
     }
 }
 
@@ -193,11 +184,14 @@ struct Sums {
     classes: Vec<f64>,
     of_classes: Matrix,
     by_bounce: Vec<Vec<f64>>,
+    /// The first bounce that is stored.
+    first: usize,
 }
 
 impl Sums {
-    fn new(cells: usize, classes: usize) -> Self {
+    fn new(cells: usize, classes: usize, first: u16) -> Self {
         Self {
+            first: usize::from(first),
             cells: vec![0.0; cells],
             of_cells: vec![vec![0.0; cells]; cells],
             classes: vec![0.0; classes],
@@ -215,7 +209,9 @@ impl Sums {
             .collect();
         for ((class, cell), bounce) in &located {
             self.classes[*class] += 1.0;
-            if let Some(counts) = self.by_bounce.get_mut(usize::from(*bounce).wrapping_sub(1)) {
+            if let Some(counts) =
+                self.by_bounce.get_mut(usize::from(*bounce).wrapping_sub(self.first))
+            {
                 counts[*class] += 1.0;
             }
             for ((other, _), _) in &located {
@@ -252,14 +248,15 @@ pub fn measure(
 ) -> (Signature, Matrix) {
     let simulation = Simulation::new(hypothesis.variation, SEED, emitted, max_bounces);
     let classes = places.facets.len() + 2;
+    let first = hypothesis.variation.storage.first();
     let piece = |photons: Range<u64>| {
-        let mut sums = Sums::new(places.cells, classes);
+        let mut sums = Sums::new(places.cells, classes, first);
         let records = simulation.trace(photons);
         records.chunk_by(|a, b| a.photon == b.photon).for_each(|path| sums.add_path(path, places));
         sums
     };
     let starts: Vec<u64> = (0..emitted).step_by(PIECE as usize).collect();
-    let mut sums = Sums::new(places.cells, classes);
+    let mut sums = Sums::new(places.cells, classes, first);
     // In waves, added in order: the sums are whole numbers, but memory is not to grow with them.
     for wave in starts.chunks(256) {
         let pieces: Vec<Sums> =

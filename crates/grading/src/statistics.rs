@@ -17,11 +17,11 @@ pub struct Fit {
     pub p_value: f64,
     /// The logarithm of the likelihood, but for a constant.
     pub log_likelihood: f64,
-    /// How many photons were sent out: as given, or as it fits best.
+    /// How many photons were emitted: as given, or as it fits best.
     pub emitted: f64,
 }
 
-/// The law of counts: their means and covariance for one photon sent out.
+/// The law of counts: their means and covariance for one photon emitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     /// The means.
@@ -119,23 +119,60 @@ pub fn grouped(counts: &[f64], groups: &[usize], count: usize) -> Vec<f64> {
     sums
 }
 
-/// How many standard deviations `counts` are from `law` on the way to `other`, the same law's means in
-/// another case: the best single number to tell the two apart. Where the number of photons is not
-/// known, what it could explain is left out.
-pub fn towards(counts: &[f64], law: &Law, other: &[f64], emitted: Option<f64>) -> f64 {
-    let size = emitted.unwrap_or_else(|| fit(counts, law, None).emitted);
-    let factor = Cholesky::new(&law.of(size));
-    let mean = factor.whiten(&law.mean);
-    let mut way =
-        factor.whiten(&law.mean.iter().zip(other).map(|(a, b)| b - a).collect::<Vec<_>>());
-    let residual = counts.iter().zip(&law.mean).map(|(count, mean)| count - size * mean);
-    let residual = factor.whiten(&residual.collect::<Vec<_>>());
-    if emitted.is_none() {
-        let along = dot(&way, &mean) / dot(&mean, &mean);
-        way.iter_mut().zip(&mean).for_each(|(way, mean)| *way -= along * mean);
+/// How `counts` differ from a law, to be held against many other laws.
+pub struct Residual<'a> {
+    law: &'a Law,
+    factor: Cholesky,
+    whitened: Vec<f64>,
+    size: f64,
+    /// The law's means, where the number of photons may explain a difference.
+    mean: Option<Vec<f64>>,
+}
+
+impl<'a> Residual<'a> {
+    /// Of `counts` from `law`, for `emitted` photons, or for as many as fit best.
+    pub fn new(counts: &[f64], law: &'a Law, emitted: Option<f64>) -> Self {
+        let size = emitted.unwrap_or_else(|| fit(counts, law, None).emitted);
+        let factor = Cholesky::new(&law.of(size));
+        let residual = counts.iter().zip(&law.mean).map(|(count, mean)| count - size * mean);
+        let whitened = factor.whiten(&residual.collect::<Vec<_>>());
+        let mean = emitted.is_none().then(|| factor.whiten(&law.mean));
+        Self { law, factor, whitened, size, mean }
     }
-    let length = dot(&way, &way).sqrt();
-    if length > 0.0 { dot(&residual, &way) / length } else { 0.0 }
+
+    /// How many standard deviations the counts are from the law on the way to `other`, the same law's means
+    /// in another case: the best single number to tell the two apart. With it, how many deviations
+    /// apart the two laws are. Where the number of photons is not known, what it could explain is left out.
+    pub fn towards(&self, other: &[f64]) -> (f64, f64) {
+        let way = self.law.mean.iter().zip(other).map(|(a, b)| b - a);
+        let mut way = self.factor.whiten(&way.collect::<Vec<_>>());
+        if let Some(mean) = &self.mean {
+            let along = dot(&way, mean) / dot(mean, mean);
+            way.iter_mut().zip(mean).for_each(|(way, mean)| *way -= along * mean);
+        }
+        let length = dot(&way, &way).sqrt();
+        let deviations = if length > 0.0 { dot(&self.whitened, &way) / length } else { 0.0 };
+        (deviations, self.size * length)
+    }
+
+    /// How much likelier the counts are where an unknown part of the way to one of `others` was gone, forward or
+    /// back, than under the law itself: the evidence for something that neither has.
+    pub fn elsewhere(&self, others: impl Iterator<Item = Vec<f64>>) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for other in others {
+            let (deviations, length) = self.towards(&other);
+            // The likelihood at its peak, times the part of the way on which it is as high (Laplace).
+            let part = ((2.0 * std::f64::consts::PI).sqrt() / (2.0 * length.max(1e-9))).min(1.0);
+            sum += (0.5 * deviations * deviations).min(300.0).exp() * part;
+            count += 1.0;
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+}
+
+/// How many standard deviations `counts` are from `law` on the way to `other`, see [`Residual::towards`].
+pub fn towards(counts: &[f64], law: &Law, other: &[f64], emitted: Option<f64>) -> f64 {
+    Residual::new(counts, law, emitted).towards(other).0
 }
 
 /// The chance that a sum of `degrees` squared standard normal numbers is larger than `value`.

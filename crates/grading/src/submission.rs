@@ -224,7 +224,7 @@ fn grade_picture(
 
 /// Whether photons straight from the light are part of what explains a submission.
 fn stores_direct(alone: &Option<Explanation>, pair: &Option<Explanation>) -> bool {
-    alone.iter().chain(pair).any(|explanation| explanation.hypothesis.variation.direct_stored)
+    alone.iter().chain(pair).any(|explanation| explanation.hypothesis.variation.stores_direct())
 }
 
 /// A remark, if the dots of `picture` are not the photons of `list`.

@@ -4,29 +4,26 @@ use std::borrow::Cow;
 
 use super::judge_list::SIGNIFICANCE;
 use super::naming::Explanation;
-use super::statistics::corrected;
 use super::verdict::{Finding, Weight};
 
 /// What a test found.
 pub(super) struct Test {
     pub(super) check: &'static str,
-    /// The chance of this, or of something stranger, before it is corrected for the number of tests.
+    /// The chance of this, or of something stranger, with regard to how many tests there are.
     pub(super) p_value: f64,
     pub(super) found: String,
 }
 
 impl Test {
-    /// The finding, where `tests` numbers were tested. Its advice is that of the misreading that explains it, else
+    /// The finding. Its advice is that of the misreading that explains it, else
     /// `unexplained`.
     pub(super) fn finding(
         &self,
-        tests: usize,
         expected: String,
         explanation: Option<&Explanation>,
         unexplained: Cow<'static, str>,
     ) -> Finding {
-        let p_value = corrected(self.p_value, tests);
-        let passed = p_value >= SIGNIFICANCE;
+        let passed = self.p_value >= SIGNIFICANCE;
         let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
         let advice = if passed {
             "".into()
@@ -38,7 +35,7 @@ impl Test {
             section: misreading.map(|misreading| misreading.section.title()),
             expected,
             found: self.found.clone(),
-            p_value: Some(p_value),
+            p_value: Some(self.p_value),
             passed,
             weight: Weight::Fault,
             advice,

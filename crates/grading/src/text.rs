@@ -70,9 +70,9 @@ pub fn heading(grade: &Grade, best: f64) -> String {
     let mut text = format!("{name}: {verdict}, {} of {best} points\n", grade.score);
     if let Some(stored) = grade.stored {
         let emitted = match grade.emitted {
-            Some(emitted) => format!("{emitted} sent out"),
+            Some(emitted) => format!("{emitted} emitted"),
             None => {
-                "how many were sent out is not known, so only their shares are judged".to_owned()
+                "how many were emitted is not known, so only their shares are judged".to_owned()
             }
         };
         text += &format!("  {stored} photons stored, {emitted}\n");

@@ -59,7 +59,7 @@ pub struct Finding {
 pub struct Grade {
     /// Its name.
     pub submission: String,
-    /// How many photons were sent out, if that is known.
+    /// How many photons were emitted, if that is known.
     pub emitted: Option<u64>,
     /// How many photons were stored; nothing when only a picture was handed in.
     pub stored: Option<u64>,

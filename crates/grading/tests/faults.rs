@@ -13,8 +13,8 @@ use photon_list::record::{ABSENT, Columns};
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
-use variants::hypotheses::no_offset;
-use variants::variation::{Simulation, Variation};
+use variants::hypotheses::{misreadings, no_offset};
+use variants::variation::{Simulation, Storage, Variation};
 
 const EMITTED: u64 = 200_000;
 
@@ -139,7 +139,7 @@ fn bounces_that_contradict_the_scene_are_a_fault() {
 
 #[test]
 fn a_limit_of_the_program_s_own_is_a_fault() {
-    let most_bounces = Variation { most_bounces: 5, ..Variation::default() };
+    let most_bounces = Variation { most_bounces: Some(5), ..Variation::default() };
     let short = records(most_bounces, 71, EMITTED);
     assert_eq!(faults_of_paths(short, PATHS), ["longest path"]);
 }
@@ -173,7 +173,7 @@ fn an_intensity_divided_twice_costs_nothing() {
 fn photons_that_go_up_are_not_called_direct() {
     // As from a light that shines upward: what is stored by way of the ceiling and the walls.
     let columns = Columns { to_light: true, ..Columns::default() };
-    let all = records(Variation { direct_stored: true, ..Variation::default() }, 74, EMITTED);
+    let all = records(Variation { storage: Storage::All, ..Variation::default() }, 74, EMITTED);
     let light = create_scene().lights()[0].position;
     let goes_up = |path: &[PhotonRecord]| path[0].position.z > light.z;
     let paths = all.chunk_by(|a, b| a.photon == b.photon).filter(|path| goes_up(path));
@@ -184,4 +184,93 @@ fn photons_that_go_up_are_not_called_direct() {
         assert!(!faults(&judgement).is_empty());
         assert!(!faults(&judgement).contains(&"indirect only"), "{:#?}", judgement.findings);
     }
+}
+
+/// Every path of `records` once more after each other, as from `threads` generators that are seeded alike.
+fn by_threads(records: &[PhotonRecord], threads: usize) -> Vec<PhotonRecord> {
+    (0..threads).flat_map(|_| records.iter().copied()).collect()
+}
+
+#[test]
+fn copies_are_named_by_how_they_come() {
+    let all = records(Variation::default(), 90, EMITTED / 4);
+    let twice = all.iter().flat_map(|record| [*record; 2]).collect();
+    for (list, named, words) in [
+        (by_threads(&all, 2), "repeated-paths", "Seed the generator once"),
+        (by_threads(&all, 8), "repeated-paths", "Seed the generator once"),
+        (twice, "stored-twice", "once for every hit"),
+    ] {
+        for emitted in [None, Some(EMITTED as f64)] {
+            let judgement = judge(&positions_of(&list), emitted, true, &EXPECTATIONS);
+            assert_eq!(name(&judgement), Some(named));
+            let mut of_faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+            assert!(of_faults.all(|fault| fault.advice.contains(words)), "{named}");
+        }
+    }
+    // Of self-hits, many are copies, and not all.
+    let self_hits = records(no_offset([0.5; 12]).variation, 91, EMITTED);
+    assert_eq!(
+        name(&judge(&positions_of(&self_hits), None, false, &EXPECTATIONS)),
+        Some("no-offset")
+    );
+}
+
+#[test]
+fn numbers_that_are_none_are_not_said_to_come_of_the_frame() {
+    // As from the root of a negative number: a photon is nowhere after it was scattered, mostly.
+    let mut lost = records(Variation::default(), 92, EMITTED);
+    let mut rand = photon_random(92, 92);
+    lost.iter_mut().filter(|_| rand() < 0.75).for_each(|record| record.position = Vec3::NAN);
+    let judgement = judge(&positions_of(&lost), Some(EMITTED as f64), true, &EXPECTATIONS);
+    assert_eq!(name(&judgement), None);
+    let advice = judgement.findings.iter().filter(|it| it.is_fault()).map(|it| &it.advice);
+    let advice: Vec<_> = advice.collect();
+    assert!(!advice.is_empty() && advice.iter().all(|it| !it.contains("(-1, 0, 0)")), "{advice:?}");
+    // Where the wall makes them, it is.
+    let nan = misreadings().into_iter().find(|it| it.id == "nan-frame").expect("it is known");
+    let judgement =
+        judge(&positions_of(&records(nan.variation, 93, EMITTED)), None, false, &EXPECTATIONS);
+    assert_eq!(name(&judgement), Some("nan-frame"));
+    let finite = judgement.findings.iter().find(|it| it.check == "finite").expect("it is checked");
+    assert!(finite.advice.contains("(-1, 0, 0)"));
+}
+
+#[test]
+fn photons_of_another_origin_or_way_are_not_called_direct() {
+    for id in ["half-directions", "start-not-moved", "polar-directions", "octant-directions"] {
+        for way in misreadings().into_iter().filter(|it| it.id == id) {
+            let list = records(way.variation, 94, EMITTED);
+            for emitted in [None, Some(EMITTED as f64)] {
+                let judgement = judge(&positions_of(&list), emitted, true, &EXPECTATIONS);
+                assert!(!faults(&judgement).contains(&"indirect only"), "{}", way.title);
+            }
+        }
+    }
+}
+
+#[test]
+fn half_a_letter_of_the_handout_is_a_mistake_with_a_name() {
+    let half =
+        misreadings().into_iter().find(|it| it.id == "half-normalised").expect("it is known");
+    let mut named = 0;
+    for seed in 95..100 {
+        let list = positions_of(&records(half.variation, seed, 500_000));
+        let judgement = judge(&list, Some(500_000.0), true, &EXPECTATIONS);
+        assert!(!faults(&judgement).is_empty(), "{seed}");
+        named += usize::from(name(&judgement) == Some("half-normalised"));
+    }
+    assert!(named >= 4, "{named}");
+}
+
+#[test]
+fn the_angle_that_is_even_is_caught_and_named() {
+    let even = misreadings().into_iter().find(|it| it.id == "linear-angle").expect("it is known");
+    let mut named = 0;
+    for seed in 101..107 {
+        let list = positions_of(&records(even.variation, seed, EMITTED));
+        let judgement = judge(&list, Some(EMITTED as f64), true, &EXPECTATIONS);
+        assert!(!faults(&judgement).is_empty(), "{seed}");
+        named += usize::from(name(&judgement) == Some("linear-angle"));
+    }
+    assert!(named >= 5, "{named}");
 }

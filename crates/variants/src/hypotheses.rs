@@ -4,9 +4,13 @@
 use fast::lanes::offset::Offset;
 use glam::Vec3;
 
-use super::variation::{FACETS, Hemisphere, Roulette, Variation};
+use super::variation::Variation;
 use crate::reading::{Reading, TangentBasis};
 use crate::section::Section;
+
+pub use crate::misreadings::{
+    BOUNCE_OFF_BY_ONE, misreadings, no_offset, repeated_paths, stored_twice,
+};
 
 /// A way in which the assignment may have been done.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +25,25 @@ pub struct Hypothesis {
     pub variation: Variation,
 }
 
+/// The name of the fair readings for programs.
+pub const FAIR: &str = "fair";
+
+impl Hypothesis {
+    /// What no other hypothesis is called.
+    pub fn key(&self) -> String {
+        let mut self_hits = self.variation.self_hits.to_vec();
+        self_hits.sort_by(f32::total_cmp);
+        self_hits.dedup();
+        match self_hits.as_slice() {
+            [0.0] => self.title.clone(),
+            several => {
+                let several: Vec<_> = several.iter().map(f32::to_string).collect();
+                format!("{} ({})", self.title, several.join(", "))
+            }
+        }
+    }
+}
+
 /// What is said to the student.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Misreading {
@@ -33,7 +56,7 @@ pub struct Misreading {
 /// The fair readings: the reference's first.
 pub fn fair_readings() -> Vec<Hypothesis> {
     let fair = |title: String, reading: Reading| Hypothesis {
-        id: "fair",
+        id: FAIR,
         title,
         misreading: None,
         variation: Variation { reading, ..Variation::default() },
@@ -68,146 +91,6 @@ pub fn fair_readings() -> Vec<Hypothesis> {
     all
 }
 
-/// Paths that end one bounce too early: unless the limit is small, nothing shows of it.
-pub const BOUNCE_OFF_BY_ONE: &str = "bounce-off-by-one";
-
-const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the absolute \
-    value with your threshold.";
-
-/// The misreadings of which the grader knows what they do.
-pub fn misreadings() -> Vec<Hypothesis> {
-    let plain = Variation::default();
-    let never_parallel = |tangent_basis| Reading {
-        tangent_basis,
-        fallback_threshold: f32::INFINITY,
-        ..Reading::REFERENCE
-    };
-    let with_basis = |tangent_basis| Reading { tangent_basis, ..Reading::REFERENCE };
-    let mut all = vec![
-        known(
-            "direct-stored",
-            "photons straight from the light are stored as well",
-            Section::PhotonStorage,
-            "Store a photon only where the size of 'path' is larger than 1, and let 'path' grow with \
-             every call.",
-            Variation { direct_stored: true, ..plain },
-        ),
-        known(
-            "uniform-hemisphere",
-            "directions are uniform over the hemisphere, not in proportion to the cosine",
-            Section::HemisphereSampling,
-            "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of the \
-             disk, lifted to the hemisphere.",
-            Variation { hemisphere: Hemisphere::Uniform, ..plain },
-        ),
-        known(
-            "no-square-root",
-            "r is u1, not its square root",
-            Section::HemisphereSampling,
-            "Equation (2) has r = sqrt(u1).",
-            Variation { hemisphere: Hemisphere::NoSquareRoot, ..plain },
-        ),
-        known(
-            "cube-directions",
-            "directions from the light come from the whole cube, not the sphere",
-            Section::PhotonEmission,
-            "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.",
-            Variation { cube_directions: true, ..plain },
-        ),
-        known(
-            "no-absolute-value",
-            "photons leave the right wall along its normal: there t and b have no length",
-            Section::HemisphereRayTransformation,
-            WALL,
-            Variation { reading: never_parallel(TangentBasis::LetterOfTheHandout), ..plain },
-        ),
-        known(
-            "no-absolute-value",
-            "photons leave the right wall along its normal: there t and b are left at zero",
-            Section::HemisphereRayTransformation,
-            WALL,
-            Variation {
-                reading: never_parallel(TangentBasis::Normalised),
-                zero_frame: true,
-                ..plain
-            },
-        ),
-        known(
-            "nan-frame",
-            "photons leave the right wall in directions that are not numbers",
-            Section::HemisphereRayTransformation,
-            "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, t is (0, 0, 0), \
-             and normalising it gives NaN: compare the absolute value with your threshold.",
-            Variation { reading: never_parallel(TangentBasis::Normalised), ..plain },
-        ),
-        known(
-            "mean-roulette",
-            "photons survive with the mean of the diffuse response, not its maximum",
-            Section::PhotonScatteringAbsorption,
-            "Equation (1): P_r = max(d_r, d_g, d_b).",
-            Variation { roulette: Roulette::Mean, ..plain },
-        ),
-        known(
-            "red-roulette",
-            "photons survive with the red of the diffuse response alone, not its maximum",
-            Section::PhotonScatteringAbsorption,
-            "Equation (1): P_r = max(d_r, d_g, d_b).",
-            Variation { roulette: Roulette::Red, ..plain },
-        ),
-        known(
-            "smallest-roulette",
-            "photons survive with the smallest channel of the diffuse response, not its largest",
-            Section::PhotonScatteringAbsorption,
-            "Equation (1): P_r = max(d_r, d_g, d_b).",
-            Variation { roulette: Roulette::Smallest, ..plain },
-        ),
-        known(
-            "luminance-roulette",
-            "photons survive with the luminance of the diffuse response, not its largest channel",
-            Section::PhotonScatteringAbsorption,
-            "Equation (1): P_r = max(d_r, d_g, d_b).",
-            Variation { roulette: Roulette::Luminance, ..plain },
-        ),
-        known(
-            "transposed-frame",
-            "t, b and n are the rows of the matrix, not its columns",
-            Section::HemisphereRayTransformation,
-            "The columns of the matrix are t, b and n; glm::mat3(t, b, n) takes columns.",
-            Variation { reading: with_basis(TangentBasis::Transposed), ..plain },
-        ),
-        known(
-            "flipped-normal",
-            "photons scatter below the surface they hit",
-            Section::HemisphereRayTransformation,
-            "Use the normal of state.ComputeNormal() as it is, in the matrix's third column.",
-            Variation { flipped_normal: true, ..plain },
-        ),
-        known(
-            BOUNCE_OFF_BY_ONE,
-            "paths end one bounce too early",
-            Section::PhotonStorage,
-            "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.",
-            Variation { fewer_bounces: 1, ..plain },
-        ),
-    ];
-    for chance in [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9] {
-        let title = format!("photons survive with the same chance, {chance}, on every material");
-        all.push(no_roulette(&title, chance, i32::MAX));
-    }
-    for most_bounces in [3, 4, 5, 6, 8, 10, 20] {
-        let title = format!("every photon is scattered, up to {most_bounces} times");
-        all.push(no_roulette(&title, 1.0, most_bounces));
-    }
-    // Whoever misreads one step may take t and b as they are written.
-    let literal = all.iter().filter(|hypothesis| {
-        hypothesis.variation.reading.tangent_basis == TangentBasis::Normalised
-            && !["nan-frame", "no-absolute-value"].contains(&hypothesis.id)
-    });
-    let literal: Vec<_> = literal.map(to_the_letter).collect();
-    all.extend(literal);
-    all
-}
-
 /// `hypothesis`, but with t and b as equations (7) and (8) have them.
 pub fn to_the_letter(hypothesis: &Hypothesis) -> Hypothesis {
     let reading =
@@ -217,40 +100,4 @@ pub fn to_the_letter(hypothesis: &Hypothesis) -> Hypothesis {
         variation: Variation { reading, ..hypothesis.variation },
         ..hypothesis.clone()
     }
-}
-
-/// Photons that meet the surface they leave. How many do depends on rounding, and so on the program:
-/// `self_hits` has the part for every facet.
-pub fn no_offset(self_hits: [f32; FACETS]) -> Hypothesis {
-    known(
-        "no-offset",
-        "scattered photons hit the triangle they leave",
-        Section::HemisphereRayTransformation,
-        "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the normal, \
-         as the framework does for shadow rays.",
-        Variation { self_hits, ..Variation::default() },
-    )
-}
-
-/// A roulette that takes no notice of the material. Positions alone can hardly tell one way to it from another.
-fn no_roulette(title: &str, chance: f32, most_bounces: i32) -> Hypothesis {
-    known(
-        "no-roulette",
-        title,
-        Section::PhotonScatteringAbsorption,
-        "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from the \
-         material that was hit, and end the path otherwise.",
-        Variation { roulette: Roulette::Constant(chance), most_bounces, ..Variation::default() },
-    )
-}
-
-fn known(
-    id: &'static str,
-    title: &str,
-    section: Section,
-    advice: &'static str,
-    variation: Variation,
-) -> Hypothesis {
-    let misreading = Some(Misreading { section, advice });
-    Hypothesis { id, title: title.to_owned(), misreading, variation }
 }

@@ -4,11 +4,14 @@
 
 pub mod frame;
 pub mod hypotheses;
+pub mod misreadings;
 pub mod pairs;
 pub mod reading;
 pub mod run;
 pub mod sampler;
+pub mod sampling;
 pub mod section;
+pub mod simulation;
 mod sobol;
 pub mod tracer;
 pub mod variation;

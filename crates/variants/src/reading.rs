@@ -46,6 +46,12 @@ impl Reading {
         Self { tangent_basis: TangentBasis::LetterOfTheHandout, ..Self::REFERENCE };
 }
 
+impl Default for Reading {
+    fn default() -> Self {
+        Self::REFERENCE
+    }
+}
+
 impl Reading {
     /// The matrix from tangent space to world space at a surface with the unit vector `normal`.
     pub fn tangent_frame(&self, normal: Vec3) -> Mat3 {

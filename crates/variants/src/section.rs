@@ -23,6 +23,15 @@ pub enum Section {
 }
 
 impl Section {
+    /// All of them, in the handout's order.
+    pub const ALL: [Self; 5] = [
+        Self::PhotonEmission,
+        Self::PhotonStorage,
+        Self::PhotonScatteringAbsorption,
+        Self::HemisphereSampling,
+        Self::HemisphereRayTransformation,
+    ];
+
     /// The section's title in the handout.
     pub fn title(self) -> &'static str {
         match self {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::error::CliError;
 use grading::policy::Policy;
-use variants::hypotheses::misreadings;
+use variants::misreadings::names;
 
 /// The policy in the file `path`, or the handout's.
 ///
@@ -29,10 +29,7 @@ pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
             "'{name}' is {score}, which is not from 0 to 'correct', {best}"
         )));
     }
-    let mut known: Vec<&str> = misreadings().iter().map(|hypothesis| hypothesis.id).collect();
-    known.push("no-offset");
-    known.sort_unstable();
-    known.dedup();
+    let known = names();
     match policy.misreadings.keys().find(|id| !known.contains(&id.as_str())) {
         Some(id) => {
             let known = known.join(", ");

@@ -1,9 +1,18 @@
 //! Numbers as short as they are known.
 
+use serde::Serialize;
 use serde_json::Value;
 
+/// Writes `signatures` to `path`, a row for each.
+pub fn write_short(path: &str, signatures: &impl Serialize) {
+    let mut json = serde_json::to_value(signatures).expect("signatures are numbers");
+    shorten(&mut json);
+    let rows = json.to_string().replace("},\"", "},\n\"");
+    std::fs::write(path, rows + "\n").expect("the file can be written");
+}
+
 /// Writes whole numbers as such, and rounds all others to the five digits that are known at best.
-pub fn shorten(json: &mut Value) {
+fn shorten(json: &mut Value) {
     match json {
         Value::Array(values) => values.iter_mut().for_each(shorten),
         Value::Object(fields) => fields.values_mut().for_each(shorten),

@@ -118,7 +118,7 @@ impl Profile {
         emitted: f64,
     ) -> Self {
         let simulation = Simulation::new(variation, SEED, photons, max_bounces);
-        let first = u16::from(!variation.direct_stored);
+        let first = variation.storage.first();
         let piece = |start: u64| {
             let range: Range<u64> = start..photons.min(start + PIECE);
             Self::of(&simulation.trace(range), places, first)

@@ -10,6 +10,8 @@ use crate::verdict::{Finding, Weight};
 const ROUNDING: u8 = 1;
 /// With a curve, such as gamma, a little more.
 const ROUNDING_OF_CURVE: u8 = 3;
+/// After a curve, the brightest red of more pixels than a few is that of dots.
+const FEWEST_FULL: usize = 3;
 /// A dot raises a channel by at least this much: the framework's red raises it by 71 or more.
 const LEAST_RAISE: u8 = 20;
 /// The part of the pixels that may be neither direct light nor dot, where programs disagree on which
@@ -74,6 +76,13 @@ pub fn find_dots<'a>(
             best = other;
             is_shifted = true;
         }
+    }
+    // What seems to be brighter nearly everywhere may be all of the picture.
+    let is_nearly_all = 2 * best.red.iter().filter(|is_red| **is_red).count() > surface as usize;
+    if is_nearly_all && best.remark.is_some() {
+        let curved = with_curve(pixels, view).filter(|curved| is_few(curved, MOST_ASTRAY));
+        is_shifted &= curved.is_none();
+        best = curved.unwrap_or(best);
     }
     if !is_few(&best, MOST_ASTRAY) {
         best = [without_direct_light(pixels, view), with_curve(pixels, view)]
@@ -197,22 +206,29 @@ fn without_direct_light(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
 fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     let direct: &[[u8; 3]] = view.direct.as_raw().as_chunks().0;
     let surface = || (0..PIXELS).filter(|at| view.shows_surface(*at));
-    let mut seen: Vec<Vec<u8>> = vec![Vec::new(); 256];
+    let mut seen: [Vec<Vec<u8>>; 2] = [vec![Vec::new(); 256], vec![Vec::new(); 256]];
     for at in surface() {
-        for channel in 1..3 {
-            seen[usize::from(direct[at][channel])].push(pixels[at][channel]);
+        for channel in 0..3 {
+            let is_red = usize::from(channel == 0);
+            seen[is_red][usize::from(direct[at][channel])].push(pixels[at][channel]);
         }
     }
-    let mut curve: Vec<Option<u8>> = Vec::new();
-    for mut values in seen {
-        values.sort_unstable();
-        curve.push(values.get(values.len() / 2).copied());
-    }
+    let [others, reds] = seen;
+    let curve: Vec<Option<u8>> = others
+        .into_iter()
+        .zip(reds)
+        .map(|(mut others, mut reds)| {
+            others.sort_unstable();
+            reds.sort_unstable();
+            // Dots leave green and blue as they are, and make red brighter, of not nearly all pixels.
+            others.get(others.len() / 2).or_else(|| reds.get(reds.len() / 5)).copied()
+        })
+        .collect();
     let known: Vec<u8> = curve.iter().flatten().copied().collect();
-    let rises = known.windows(2).all(|pair| pair[0] <= pair[1]);
+    let rises = known.windows(2).all(|pair| pair[0] <= pair[1] + ROUNDING);
     let (first, last) = (*known.first()?, *known.last()?);
-    // What is dark at first and bright at last; and still leaves room for red.
-    if !rises || last.saturating_sub(first) < 64 || last >= 255 - LEAST_RAISE {
+    // What is dark at first and bright at last.
+    if !rises || last.saturating_sub(first) < 64 {
         return None;
     }
     let expected =
@@ -220,15 +236,16 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     let is_off = |at: usize, channel: usize| {
         pixels[at][channel].abs_diff(expected(at, channel)) > ROUNDING_OF_CURVE
     };
-    let raised: Vec<usize> = surface()
-        .filter(|at| pixels[*at][0].saturating_sub(expected(*at, 0)) >= LEAST_RAISE)
-        .collect();
-    // The framework's dots are full of red, which the curve takes to one value.
-    let full = most_frequent(raised.iter().map(|at| pixels[*at][0])).unwrap_or(255);
+    // The framework's dots are full of red, which the curve takes to one value: the largest.
+    let mut counts = [0; 256];
+    surface().for_each(|at| counts[usize::from(pixels[at][0])] += 1);
+    let full = counts.iter().rposition(|count| *count >= FEWEST_FULL).unwrap_or(255) as u8;
+    let is_full = |at: &usize| {
+        pixels[*at][0].abs_diff(full) <= ROUNDING_OF_CURVE
+            && full.saturating_sub(expected(*at, 0)) > 2 * ROUNDING_OF_CURVE
+    };
     let mut red = vec![false; PIXELS];
-    for at in raised {
-        red[at] = pixels[at][0].abs_diff(full) <= ROUNDING_OF_CURVE;
-    }
+    surface().filter(is_full).for_each(|at| red[at] = true);
     let is_astray = |at: &usize| is_off(*at, 1) || is_off(*at, 2) || (!red[*at] && is_off(*at, 0));
     let astray = surface().filter(is_astray).count();
     let found = "all colours changed by a curve, such as a gamma or a brightness".to_owned();

@@ -35,7 +35,7 @@ impl PictureExpectations {
     pub fn new(places: &Places, max_bounces: i32) -> Self {
         let view = View::new(places);
         let signatures = if max_bounces >= MANY_BOUNCES {
-            PictureSignatures::of_assignment8()
+            PictureSignatures::of_assignment8(places)
         } else {
             PictureSignatures::measure(places, &view, max_bounces, Effort::QUICK)
         };

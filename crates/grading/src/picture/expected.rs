@@ -15,7 +15,7 @@ use crate::statistics::{Law, Matrix};
 pub struct Expected {
     /// The means.
     pub mean: Vec<f64>,
-    /// How fast each mean grows with the logarithm of the photons sent out.
+    /// How fast each mean grows with the logarithm of the photons emitted.
     pub slope: Vec<f64>,
     /// The covariance.
     pub covariance: Matrix,

@@ -1,49 +1,35 @@
 //! Are the dots of a picture where the handout leads to expect them?
 
-use super::coverage::{self, STANDOFFS, coverage};
+use super::coverage::{self, coverage};
 use super::expectations::PictureExpectations;
 use super::expected::{Expected, means, total};
 use super::view::View;
 use super::words::{self, LEAST_EMITTED};
 use crate::judge_list::{SIGNIFICANCE, alone_or_pair, two_at_once};
-use crate::naming::{Explanation, bounces_show, most_likely};
+use crate::naming::Explanation;
 use crate::statistics::{
-    Fit, Law, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
+    Fit, Law, Residual, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
 };
 use crate::verdict::{Finding, Weight};
-use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
 
 use super::signature::PictureSignature;
 use crate::test::Test;
 
 /// By which part of itself a density may be off for reasons that a course cannot fault.
 const LEEWAY: f64 = 0.008;
-/// And that of a known misreading, of which the student's program may have another form.
-const LEEWAY_OF_MISREADING: f64 = 0.02;
-/// Self-hits depend on rounding, from facet to facet.
-const LEEWAY_OF_SELF_HITS: f64 = 0.25;
-/// A misreading with which the picture is less likely than this does not explain it alone: two together
-/// often look a little like one. Pictures with this one alone are as rare, but for self-hits, whose law is only
-/// roughly known.
-const LEAST_LIKELY: f64 = 0.02;
 /// Numbers of pixels must be so many deviations from none and from all to be as good as normal.
 const LEAST_DEVIATIONS: f64 = 6.0;
 /// Another way to do it right is tried for what is as rare as this.
 const RARE: f64 = 0.01;
-/// With fewer groups of cells than this, anything fits that has this many numbers to choose.
-const FEWEST_GROUPS: usize = 4;
-/// But so few red pixels have no more groups.
-const SHORT: f64 = 1000.0;
 /// A few odd pixels are no dots.
-const FEWEST_RED: f64 = 10.0;
+pub(super) const FEWEST_RED: f64 = 10.0;
 /// When no more than this part of the pixels is left, all are red.
 const ALL_RED: f64 = 1e-3;
 /// With so many photons that less than this part of the pixels is expected to be left, nothing can be
 /// told.
 const SATURATED: f64 = 0.05;
 /// The numbers of photons between which it is sought: with fewer or more no picture can be judged.
-const SIZES: [f64; 2] = [10.0, 1e8];
+pub(super) const SIZES: [f64; 2] = [10.0, 1e8];
 
 /// What the dots of a picture say.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +42,7 @@ pub struct PictureJudgement {
     pub explanation: Option<Explanation>,
     /// Two misreadings that explain them together, if none does alone.
     pub pair: Option<Explanation>,
-    /// How many photons were sent out: as known, or as it fits best; nothing where nothing fits.
+    /// How many photons were emitted: as known, or as it fits best; nothing where nothing fits.
     pub emitted: Option<f64>,
     /// The smallest p-value, corrected for the number of tests, where there were any.
     pub p_value: Option<f64>,
@@ -75,22 +61,22 @@ pub(super) struct Trial {
     /// How far off their facets positions are taken to be, in world units.
     pub(super) standoff: Option<f64>,
     pub(super) tests: Vec<Test>,
-    p_value: f64,
+    pub(super) p_value: f64,
     pub(super) emitted: f64,
     /// How cells were joined, and into how many groups.
-    groups: (Vec<usize>, usize),
+    pub(super) groups: (Vec<usize>, usize),
 }
 
 /// What is judged: the numbers of red pixels by cell, and what is known beforehand.
 #[derive(Clone, Copy)]
-struct Case<'a> {
-    counts: &'a [f64],
-    emitted: Option<f64>,
-    view: &'a View,
-    expectations: &'a PictureExpectations,
+pub(super) struct Case<'a> {
+    pub(super) counts: &'a [f64],
+    pub(super) emitted: Option<f64>,
+    pub(super) view: &'a View,
+    pub(super) expectations: &'a PictureExpectations,
 }
 
-/// Judges the dots `red`, by pixel of `view`, where `emitted` photons were sent out, if that is known.
+/// Judges the dots `red`, by pixel of `view`, where `emitted` photons were emitted, if that is known.
 pub fn judge_dots(
     red: &[bool],
     view: &View,
@@ -155,7 +141,7 @@ fn judge_pattern(case: Case) -> PictureJudgement {
             let unexplained = pair
                 .as_ref()
                 .map_or(words::UNEXPLAINED.into(), |pair| two_at_once(&pair.hypothesis));
-            test.finding(trial.tests.len(), expected, explanation.as_ref(), unexplained)
+            test.finding(expected, explanation.as_ref(), unexplained)
         })
         .collect();
     if case.emitted.is_none() {
@@ -201,65 +187,7 @@ impl Case<'_> {
         best
     }
 
-    /// As [`Self::best_trial`], of positions that are off their surfaces, and of enough photons.
-    fn best_trial_off_surface(&self) -> Option<Trial> {
-        let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= LEAST_EMITTED;
-        let attempts = (0..self.expectations.fair.len()).flat_map(|reading| {
-            let standoffs = self.standoffs(reading);
-            standoffs.into_iter().map(move |standoff| self.attempt(reading, Some(standoff)))
-        });
-        let is_short = self.counts.iter().sum::<f64>() < SHORT;
-        let can_fail = |trial: &Trial| is_short || trial.groups.1 >= FEWEST_GROUPS;
-        let off = attempts.filter(is_enough).filter(can_fail).reduce(better)?;
-        (off.p_value >= SIGNIFICANCE).then_some(off)
-    }
-
-    /// The numbers of red pixels on facets that are askew to all axes, and on others.
-    fn askew_and_straight(&self, of_cells: &[f64]) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        for (cell, count) in of_cells.iter().enumerate() {
-            let is_askew = self.expectations.is_askew[self.view.facet_of_cell(cell)];
-            sums[usize::from(!is_askew)] += count;
-        }
-        sums
-    }
-
-    /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to expect:
-    /// they are the first to lose some where positions are off.
-    fn may_be_off_surface(&self, trial: &Trial) -> bool {
-        let signature = &self.expectations.signatures.fair[trial.reading];
-        let at_rest = vec![1.0; self.view.facets.len()];
-        let means = means(self.view, signature, trial.emitted, &at_rest);
-        let [askew, straight] = self.askew_and_straight(self.counts);
-        let [askew_mean, straight_mean] = self.askew_and_straight(&means);
-        askew * straight_mean < straight * askew_mean || straight < 0.01 * straight_mean
-    }
-
-    /// How far off positions may be: as far as leaves the dots that there are on the askew facets, for as
-    /// many photons as the others show. Where these show none, nothing but the number itself tells.
-    fn standoffs(&self, reading: usize) -> Vec<f64> {
-        let signature = &self.expectations.signatures.fair[reading];
-        let expect = |size: f64, standoff: f64| {
-            let coverage = coverage(self.view, &self.expectations.places, standoff);
-            self.askew_and_straight(&means(self.view, signature, size, &coverage))
-        };
-        let [askew, straight] = self.askew_and_straight(self.counts);
-        let radius = f64::from(PHOTON_DOT_RADIUS);
-        let [first, last] = [STANDOFFS[0], STANDOFFS[STANDOFFS.len() - 1]];
-        let is_bare = straight < FEWEST_RED;
-        let size = match self.emitted {
-            Some(emitted) => emitted,
-            None if is_bare => {
-                let bare = STANDOFFS.into_iter().filter(|standoff| *standoff > radius);
-                return bare.step_by(3).collect();
-            }
-            None => bisect(SIZES, |size| expect(size, 0.0)[1] < straight),
-        };
-        let range = if is_bare { [radius * 1.0001, last] } else { [first, radius] };
-        vec![bisect(range, |standoff| expect(size, standoff)[0] > askew)]
-    }
-
-    fn attempt(&self, reading: usize, standoff: Option<f64>) -> Trial {
+    pub(super) fn attempt(&self, reading: usize, standoff: Option<f64>) -> Trial {
         let Self { counts, view, expectations, .. } = *self;
         let signature = &expectations.signatures.fair[reading];
         let coverage = coverage(view, &expectations.places, standoff.unwrap_or(0.0));
@@ -300,6 +228,7 @@ impl Case<'_> {
         });
 
         let mut farthest: f64 = 0.0;
+        let residual = Residual::new(&of_groups, &law, Some(1.0));
         let all = expected.mean.iter().sum::<f64>();
         for other in &expectations.signatures.misreadings {
             // Where the number is not known, as many photons as leave about as many dots.
@@ -309,7 +238,7 @@ impl Case<'_> {
             };
             let other = means(view, other, other_size, &coverage);
             let other = grouped(&other, &groups.0, groups.1);
-            farthest = farthest.max(towards(&of_groups, &law, &other, Some(1.0)));
+            farthest = farthest.max(residual.towards(&other).0);
         }
         tests.push(Test {
             check: "known misreadings",
@@ -319,14 +248,23 @@ impl Case<'_> {
             found: format!("{farthest:.1} standard deviations on the way to one of them"),
         });
 
-        let smallest = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
-        let p_value = corrected(smallest, tests.len());
+        let count = tests.len();
+        tests.iter_mut().for_each(|test| test.p_value = corrected(test.p_value, count));
+        if self.emitted.is_some() {
+            // What is rejected without the number is rejected with it.
+            let of_any_number = Self { emitted: None, ..*self }.attempt(reading, standoff);
+            for test in &mut tests {
+                let other = of_any_number.tests.iter().find(|other| other.check == test.check);
+                test.p_value = other.map_or(1.0, |other| other.p_value).min(test.p_value);
+            }
+        }
+        let p_value = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
         Trial { reading, standoff, tests, p_value, emitted: size, groups }
     }
 
     /// The law of groups of cells. What cannot be known is left open by a variance along its way: the
     /// number of photons, if it was fitted, and the exact coverage.
-    fn law(
+    pub(super) fn law(
         &self,
         expected: &Expected,
         (groups, count): (&[usize], usize),
@@ -346,7 +284,7 @@ impl Case<'_> {
     }
 
     /// How fast the means of the cells of one facet grow.
-    fn slope_of_facet(&self, expected: &Expected, facet: usize) -> Vec<f64> {
+    pub(super) fn slope_of_facet(&self, expected: &Expected, facet: usize) -> Vec<f64> {
         let is_on = |cell| self.view.facet_of_cell(cell) == facet;
         let slope = expected.slope.iter().enumerate();
         slope.map(|(cell, slope)| if is_on(cell) { *slope } else { 0.0 }).collect()
@@ -358,7 +296,7 @@ impl Case<'_> {
     }
 
     /// The number of photons that fits best.
-    fn fit_size(&self, signature: &PictureSignature, coverage: &[f64]) -> f64 {
+    pub(super) fn fit_size(&self, signature: &PictureSignature, coverage: &[f64]) -> f64 {
         let found: f64 = self.counts.iter().sum();
         let too_few = |size| total(self.view, signature, size, coverage) < found;
         let mut size = bisect(SIZES, too_few);
@@ -378,58 +316,10 @@ impl Case<'_> {
         }
         size
     }
-
-    /// The misreading that explains the picture, or two at once, if no other does as well.
-    fn explain(&self, trial: &Trial) -> Option<Explanation> {
-        let groups = (trial.groups.0.as_slice(), trial.groups.1);
-        let signatures = &self.expectations.signatures;
-        let known = self.expectations.misreadings.iter().chain(&self.expectations.pairs);
-        let signatures = signatures.misreadings.iter().chain(&signatures.pairs);
-        let max_bounces = self.expectations.signatures.max_bounces;
-        let can_be_seen = |id| id != BOUNCE_OFF_BY_ONE || bounces_show(max_bounces);
-        let candidates = known
-            .zip(signatures)
-            .filter(|(hypothesis, _)| can_be_seen(hypothesis.id))
-            .map(|(hypothesis, signature)| self.hold_against(hypothesis, signature, groups));
-        // Dots lost all over the scene are no misreading.
-        let of_any_number = Self { emitted: None, ..*self };
-        let fair = self.expectations.fair.iter().zip(&self.expectations.signatures.fair);
-        let fair = fair
-            .filter(|_| self.emitted.is_some())
-            .map(|(reading, signature)| of_any_number.hold_against(reading, signature, groups));
-        most_likely(candidates.chain(fair).collect())
-            .filter(|it| it.hypothesis.id == "no-offset" || it.fit.p_value >= LEAST_LIKELY)
-    }
-
-    /// How well `hypothesis` explains the picture, whose cells are joined into `groups`, so many of them.
-    fn hold_against(
-        &self,
-        hypothesis: &Hypothesis,
-        signature: &PictureSignature,
-        (groups, count): (&[usize], usize),
-    ) -> Explanation {
-        let counts = grouped(self.counts, groups, count);
-        let at_rest = vec![1.0; self.view.facets.len()];
-        let size = self.emitted.unwrap_or_else(|| self.fit_size(signature, &at_rest));
-        let expected = Expected::new(self.view, signature, size, &at_rest);
-        let mut law = self.law(&expected, (groups, count), LEEWAY_OF_MISREADING, &at_rest);
-        if hypothesis.id == "no-offset" {
-            for facet in 0..self.view.facets.len() {
-                let way = self.slope_of_facet(&expected, facet);
-                let way = grouped(&way, groups, count);
-                loosen(&mut law, &way, LEEWAY_OF_SELF_HITS);
-            }
-        }
-        let mut fit = fit(&counts, &law, Some(1.0));
-        fit.degrees -= usize::from(self.emitted.is_none());
-        fit.p_value = chi_squared_tail(fit.distance, fit.degrees);
-        fit.emitted = size;
-        Explanation::new(hypothesis, fit)
-    }
 }
 
 /// Where between the positive ends of `range` `is_low` ceases to hold, in proportion.
-fn bisect([mut low, mut high]: [f64; 2], is_low: impl Fn(f64) -> bool) -> f64 {
+pub(super) fn bisect([mut low, mut high]: [f64; 2], is_low: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..40 {
         let middle = (low * high).sqrt();
         if is_low(middle) {
@@ -441,12 +331,12 @@ fn bisect([mut low, mut high]: [f64; 2], is_low: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-fn better(best: Trial, trial: Trial) -> Trial {
+pub(super) fn better(best: Trial, trial: Trial) -> Trial {
     if trial.p_value > best.p_value { trial } else { best }
 }
 
 /// Lets the means of `law` be off together by the part `deviation` of `way`.
-fn loosen(law: &mut Law, way: &[f64], deviation: f64) {
+pub(super) fn loosen(law: &mut Law, way: &[f64], deviation: f64) {
     for (row, a) in law.covariance.iter_mut().zip(way) {
         for (entry, b) in row.iter_mut().zip(way) {
             *entry += deviation * deviation * a * b;

@@ -6,6 +6,8 @@ pub mod dots;
 pub mod expectations;
 pub mod expected;
 pub mod judge;
+mod naming;
+mod off_surface;
 pub mod reading;
 pub mod signature;
 pub mod trials;
@@ -19,7 +21,7 @@ use dots::find_dots;
 use expectations::PictureExpectations;
 use judge::{PictureJudgement, judge_dots};
 
-/// Judges the picture `path`, for which `emitted` photons were sent out, if that is known.
+/// Judges the picture `path`, for which `emitted` photons were emitted, if that is known.
 ///
 /// # Errors
 /// The reason, in words, if its dots cannot be told.

@@ -1,14 +1,16 @@
 //! How likely each hypothesis turns which pixels red, measured by tracing it.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::view::View;
+use crate::kept::{Effort, take};
 use crate::places::Places;
-use crate::signature::Effort;
 use crate::statistics::Matrix;
+use photon_mapping::assignment8::MAX_PHOTON_BOUNCES;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::{PAIR, can_be_of_two, pairs};
@@ -27,17 +29,17 @@ const SELF_HITS: ([f32; 3], [f32; 3]) = ([0.1, 0.25, 0.4], [0.3, 0.45, 0.6]);
 /// How often the photons of one hypothesis turn pixels red.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureSignature {
-    /// How many photons were sent out to measure it.
+    /// How many photons were emitted to measure it.
     pub emitted: f64,
     /// By patch of the view: how many pixels were turned red, all photons taken on their own.
     pub red: Vec<f64>,
-    /// By facet in sight, and for each photon sent out: the sum over pairs of photons of its path of
+    /// By facet in sight, and for each photon emitted: the sum over pairs of photons of its path of
     /// the product of the pixels that they turn red.
     pub pairs: Matrix,
 }
 
 /// The signatures of all hypotheses, for a view without a shift.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PictureSignatures {
     /// How often photons may bounce.
     pub max_bounces: i32,
@@ -49,31 +51,50 @@ pub struct PictureSignatures {
     pub pairs: Vec<PictureSignature>,
 }
 
-impl PictureSignatures {
-    /// Those of the assignment as it stands, measured beforehand: a test measures some of them again.
+/// Signatures as they are kept: each under what its hypothesis is called.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    /// By [`Hypothesis::key`].
+    pub of: BTreeMap<String, PictureSignature>,
+}
+
+impl Kept {
+    /// Those of the assignment as it stands: a test measures some of them again.
     pub fn of_assignment8() -> Self {
-        let json = include_str!("signatures.json");
+        let json = include_str!("../../../../golden/signatures-of-pictures.json");
         serde_json::from_str(json)
             .expect("the signatures that are part of the program are well formed")
     }
 
+    /// Measures what is missing, for photons that may bounce `max_bounces` times.
+    pub fn complete(&mut self, places: &Places, view: &View, max_bounces: i32, effort: Effort) {
+        let all = [fair_readings(), known_misreadings(places), known_pairs(places)].concat();
+        for hypothesis in all.into_iter().filter(|it| effort.photons(it) > 0) {
+            let measure = || measure(&hypothesis, view, effort.photons(&hypothesis), max_bounces);
+            self.of.entry(hypothesis.key()).or_insert_with(measure);
+        }
+    }
+}
+
+impl PictureSignatures {
+    /// Those of the assignment as it stands, measured beforehand.
+    pub fn of_assignment8(places: &Places) -> Self {
+        Self::new(places, MAX_PHOTON_BOUNCES, Kept::of_assignment8())
+    }
+
     /// Measures all signatures for photons that may bounce `max_bounces` times.
     pub fn measure(places: &Places, view: &View, max_bounces: i32, effort: Effort) -> Self {
-        let fair = fair_readings();
-        let fair = fair.iter().enumerate().map(|(index, hypothesis)| {
-            let emitted = if index < 2 { effort.main } else { effort.fair };
-            measure(hypothesis, view, emitted, max_bounces)
-        });
-        let fair = fair.collect();
-        let measure_all = |hypotheses: Vec<Hypothesis>, emitted: u64| {
-            let signature = |hypothesis| measure(hypothesis, view, emitted, max_bounces);
-            hypotheses.iter().map(signature).collect()
-        };
+        let mut kept = Kept::default();
+        kept.complete(places, view, max_bounces, effort);
+        Self::new(places, max_bounces, kept)
+    }
+
+    fn new(places: &Places, max_bounces: i32, Kept { mut of }: Kept) -> Self {
         Self {
             max_bounces,
-            fair,
-            misreadings: measure_all(known_misreadings(places), effort.misreading),
-            pairs: measure_all(known_pairs(places), effort.pair),
+            fair: take(&mut of, &fair_readings()),
+            misreadings: take(&mut of, &known_misreadings(places)),
+            pairs: take(&mut of, &known_pairs(places)),
         }
     }
 }
@@ -97,7 +118,7 @@ pub fn known_pairs(places: &Places) -> Vec<Hypothesis> {
     let [_, askew, _] = SELF_HITS.1;
     let no_offset = no_offset(self_hits(straight, askew, places));
     let mut all = pairs();
-    for other in misreadings().iter().filter(|hypothesis| can_be_of_two(hypothesis)) {
+    for other in can_be_of_two() {
         let self_hits = no_offset.variation.self_hits;
         all.push(Hypothesis {
             id: PAIR,

@@ -19,7 +19,7 @@ pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it.
 /// What the test named `check` expects.
 pub(super) fn expected_by(check: &str) -> &'static str {
     match check {
-        "number of dots" => "as many dots as the photons sent out leave in sight",
+        "number of dots" => "as many dots as the photons emitted leave in sight",
         "dots by facet" => "on every facet in sight as many dots as the scene leaves there",
         "density of dots" => "the scene's density of dots over every facet in sight",
         _ => "no tendency towards a known misreading",
@@ -92,10 +92,10 @@ pub(super) fn saturated(emitted: f64) -> Finding {
     storage(
         "dots",
         "pixels without a dot, to tell where dots are",
-        format!("with {emitted:.0} photons sent out nearly all is red, right or wrong"),
+        format!("with {emitted:.0} photons emitted nearly all is red, right or wrong"),
         false,
         Weight::Remark,
-        "A picture with 1,000,000 photons sent out tells more.",
+        "A picture with 1,000,000 photons emitted tells more.",
     )
 }
 
@@ -122,26 +122,26 @@ pub(super) fn all_red() -> Finding {
 pub(super) fn enough(found: f64, fitted: f64) -> Finding {
     storage(
         "enough photons",
-        &format!("the dots of at least {LEAST_EMITTED} photons sent out"),
-        format!("{found:.0} red pixels, of about {fitted:.0} photons sent out"),
+        &format!("the dots of at least {LEAST_EMITTED} photons emitted"),
+        format!("{found:.0} red pixels, of about {fitted:.0} photons emitted"),
         fitted >= LEAST_EMITTED,
         Weight::Fault,
-        "The framework sends out 1,000,000 photons. If yours did, look at where paths end; if it sent \
+        "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it sent \
          out fewer, grade with --emitted.",
     )
 }
 
-/// With how many photons sent out a misreading explains the dots: the number is all that tells it from the
+/// With how many photons emitted a misreading explains the dots: the number is all that tells it from the
 /// same misreading with another one that changes little else.
 pub(super) fn number_under(id: &str, emitted: f64) -> Finding {
     let close = (emitted / PHOTON_COUNT as f64 - 1.0).abs() < NUMBER_LEEWAY;
     storage(
-        "photons sent out",
-        &format!("{PHOTON_COUNT}, as the framework sends out"),
+        "photons emitted",
+        &format!("{PHOTON_COUNT}, as the framework emits"),
         format!("'{id}' explains the dots of about {:.0} photons", (emitted / 1e3).round() * 1e3),
         close,
         Weight::Remark,
-        "If yours sent out another number than this, there is another mistake, too: grade with --emitted.",
+        "If yours emitted another number than this, there is another mistake, too: grade with --emitted.",
     )
 }
 

@@ -1,0 +1,73 @@
+//! Dots of positions that are off their surfaces, as far as leaves the dots that there are.
+
+use super::coverage::{STANDOFFS, coverage};
+use super::expected::means;
+use super::judge::{Case, FEWEST_RED, SIZES, Trial, better, bisect};
+use super::words::LEAST_EMITTED;
+use crate::judge_list::SIGNIFICANCE;
+use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
+
+/// With fewer groups of cells than this, anything fits that has this many numbers to choose.
+const FEWEST_GROUPS: usize = 4;
+/// But so few red pixels have no more groups.
+const SHORT: f64 = 1000.0;
+
+impl Case<'_> {
+    /// As [`Self::best_trial`], of positions that are off their surfaces, and of enough photons.
+    pub(super) fn best_trial_off_surface(&self) -> Option<Trial> {
+        let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= LEAST_EMITTED;
+        let attempts = (0..self.expectations.fair.len()).flat_map(|reading| {
+            let standoffs = self.standoffs(reading);
+            standoffs.into_iter().map(move |standoff| self.attempt(reading, Some(standoff)))
+        });
+        let is_short = self.counts.iter().sum::<f64>() < SHORT;
+        let can_fail = |trial: &Trial| is_short || trial.groups.1 >= FEWEST_GROUPS;
+        let off = attempts.filter(is_enough).filter(can_fail).reduce(better)?;
+        (off.p_value >= SIGNIFICANCE).then_some(off)
+    }
+
+    /// The numbers of red pixels on facets that are askew to all axes, and on others.
+    fn askew_and_straight(&self, of_cells: &[f64]) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (cell, count) in of_cells.iter().enumerate() {
+            let is_askew = self.expectations.is_askew[self.view.facet_of_cell(cell)];
+            sums[usize::from(!is_askew)] += count;
+        }
+        sums
+    }
+
+    /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to expect:
+    /// they are the first to lose some where positions are off.
+    pub(super) fn may_be_off_surface(&self, trial: &Trial) -> bool {
+        let signature = &self.expectations.signatures.fair[trial.reading];
+        let at_rest = vec![1.0; self.view.facets.len()];
+        let means = means(self.view, signature, trial.emitted, &at_rest);
+        let [askew, straight] = self.askew_and_straight(self.counts);
+        let [askew_mean, straight_mean] = self.askew_and_straight(&means);
+        askew * straight_mean < straight * askew_mean || straight < 0.01 * straight_mean
+    }
+
+    /// How far off positions may be: as far as leaves the dots that there are on the askew facets, for as
+    /// many photons as the others show. Where these show none, nothing but the number itself tells.
+    fn standoffs(&self, reading: usize) -> Vec<f64> {
+        let signature = &self.expectations.signatures.fair[reading];
+        let expect = |size: f64, standoff: f64| {
+            let coverage = coverage(self.view, &self.expectations.places, standoff);
+            self.askew_and_straight(&means(self.view, signature, size, &coverage))
+        };
+        let [askew, straight] = self.askew_and_straight(self.counts);
+        let radius = f64::from(PHOTON_DOT_RADIUS);
+        let [first, last] = [STANDOFFS[0], STANDOFFS[STANDOFFS.len() - 1]];
+        let is_bare = straight < FEWEST_RED;
+        let size = match self.emitted {
+            Some(emitted) => emitted,
+            None if is_bare => {
+                let bare = STANDOFFS.into_iter().filter(|standoff| *standoff > radius);
+                return bare.step_by(3).collect();
+            }
+            None => bisect(SIZES, |size| expect(size, 0.0)[1] < straight),
+        };
+        let range = if is_bare { [radius * 1.0001, last] } else { [first, radius] };
+        vec![bisect(range, |standoff| expect(size, standoff)[0] > askew)]
+    }
+}

@@ -1,0 +1,65 @@
+//! The table of misreadings, and what each of them does.
+
+use std::collections::HashSet;
+
+use photon_mapping::photon_list::PhotonRecord;
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, misreadings};
+use variants::misreadings::table;
+use variants::pairs::pairs;
+use variants::variation::{Simulation, Variation};
+
+const EMITTED: u64 = 20_000;
+
+fn stored(variation: Variation, max_bounces: i32) -> Vec<PhotonRecord> {
+    Simulation::new(variation, 5, EMITTED, max_bounces).trace(0..EMITTED)
+}
+
+#[test]
+fn the_documentation_has_the_table() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/misreadings.md");
+    let kept = std::fs::read_to_string(path).expect("docs/misreadings.md is there");
+    assert!(kept == table(), "run the example 'misreadings' of this package and write it there");
+}
+
+#[test]
+fn every_way_has_a_key_of_its_own() {
+    let mut keys = HashSet::new();
+    for hypothesis in [misreadings(), pairs()].concat() {
+        assert!(keys.insert(hypothesis.key()), "{}", hypothesis.title);
+    }
+}
+
+#[test]
+fn every_misreading_stores_something_else_than_the_reference() {
+    for hypothesis in misreadings() {
+        let max_bounces = if hypothesis.id == BOUNCE_OFF_BY_ONE { 3 } else { 1000 };
+        let positions = |variation| -> HashSet<[u32; 3]> {
+            let records = stored(variation, max_bounces).into_iter();
+            records.map(|record| record.position.to_array().map(f32::to_bits)).collect()
+        };
+        let others = positions(hypothesis.variation);
+        let reference = positions(Variation::default());
+        assert_ne!(others, reference, "{}", hypothesis.title);
+        assert!(others.len() > 5, "{}", hypothesis.title);
+    }
+}
+
+#[test]
+fn the_plain_variation_is_the_reference_on_the_slow_path_too() {
+    // Not one hit is sure to scatter that the roulette would not: the slow path, and the same photons.
+    let slow = Variation { start: variants::variation::Start::Hit, ..Variation::default() };
+    let traced = |seed: u64| {
+        let simulation = Simulation::new(slow, seed, EMITTED, 1000);
+        let numbered = |photon: u64| photon_mapping::random::photon_random(seed, photon);
+        let mut all = Vec::new();
+        for photon in 0..2000 {
+            let mut rand = numbered(photon);
+            all.extend(
+                simulation.trace_with(photon..photon + 1, std::iter::from_fn(|| Some(rand()))),
+            );
+        }
+        all
+    };
+    let fast = Simulation::new(Variation::default(), 3, EMITTED, 1000).trace(0..2000);
+    assert_eq!(traced(3), fast);
+}
