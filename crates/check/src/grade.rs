@@ -53,11 +53,19 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
     let is_grave = |finding: &Finding| finding.is_fault() && finding.weight == Weight::Grave;
     let is_plausible = !of_list.is_some_and(|grade| grade.findings.iter().any(is_grave))
         && faults().all(|fault| fault.name != Some("direct-stored"));
+    let is_right = |verdict: &&sections::Verdict| {
+        matches!(verdict.status, Status::Right | Status::RightUnderAnotherReading)
+    };
+    let right = || report.sections.iter().filter(is_right).map(|verdict| verdict.section.title());
+    // With all sections right, the whole run decides.
+    let is_partly_right = right().count() < report.sections.len();
+    let of_sections = is_partly_right.then(|| settings.policy.of_sections(right())).flatten();
     let grade = Grade {
         submission: report.submission.clone(),
         emitted: Some(report.whole.photons),
         stored: report.whole.stored,
-        score: settings.policy.score(verdict, misreading, is_plausible),
+        score: of_sections
+            .unwrap_or_else(|| settings.policy.score(verdict, misreading, is_plausible)),
         verdict,
         misreading,
         misreading_confidence: misreading.map(|_| 1.0),

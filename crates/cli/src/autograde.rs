@@ -3,7 +3,7 @@
 //! `check` and `grade` run as programs of their own, so that one that hangs, crashes or takes all
 //! memory costs its part of the result alone.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,6 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::error::CliError;
@@ -92,7 +91,7 @@ fn results(arguments: &AutogradeArgs) -> Value {
     let has = |kinds: &[&str]| files.iter().any(|path| has_extension(path, kinds));
     let mut parts = Vec::new();
     if has(&SOURCES) {
-        parts.push(checked(&submission, arguments, policy.correct));
+        parts.push(checked(&submission, arguments));
     }
     // Without C++ every file is worth a look: what a list is called does not matter.
     if has(&RESULTS) || !(files.is_empty() || has(&SOURCES)) {
@@ -138,121 +137,36 @@ fn has_extension(path: &Path, kinds: &[&str]) -> bool {
     kinds.iter().any(|kind| extension == *kind)
 }
 
-/// What is read of the report of `check`.
-#[derive(Deserialize)]
-struct Report {
-    builds: Builds,
-    sections: Vec<Section>,
-}
-
-#[derive(Deserialize)]
-struct Builds {
-    status: String,
-    file: Option<String>,
-    line: Option<u64>,
-    message: Option<String>,
-    what: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct Section {
-    section: String,
-    status: String,
-    faults: Vec<Fault>,
-    readings: Vec<String>,
-    remarks: Vec<String>,
-}
-
-#[derive(Deserialize)]
-struct Fault {
-    found: String,
-    advice: String,
-}
-
-fn checked(submission: &Path, arguments: &AutogradeArgs, best: f64) -> Part {
+fn checked(submission: &Path, arguments: &AutogradeArgs) -> Part {
     // A submission that runs too long is a fault of its own, well before the grader's time is up.
     let each = (arguments.timeout / 4).clamp(1, 60).to_string();
-    let words = ["check", "--quiet", "--format", "json", "--timeout", &each];
-    let words = words.map(OsStr::new);
-    let mut reports: Vec<Report> = match run_verb(&words, submission, arguments.timeout) {
-        Ok(reports) => reports,
-        Err(why) => return Part::failed("The C++", &why),
-    };
-    let Some(Report { builds, sections }) = reports.pop() else {
-        return Part::failed("The C++", "check gave no report");
-    };
-    if sections.is_empty() {
-        let output = format!("C++: {}\n", why_not_run(&builds));
-        let test = json!({
-            "name": "The C++ builds and runs", "status": "failed", "output": output,
-            "output_format": "text", "visibility": "visible",
-        });
-        return Part { score: None, output, tests: vec![test] };
-    }
-    let is_right = |section: &Section| section.status.starts_with("right");
-    // Whole thousandths: 2.4 must not become 2.4000000000000004.
-    let points = |right: usize| (1e3 * best * right as f64 / sections.len() as f64).round() / 1e3;
-    let right = sections.iter().filter(|section| is_right(section)).count();
-    let test = |section: &Section| {
-        json!({
-            "name": section.section,
-            "score": points(usize::from(is_right(section))), "max_score": points(1),
-            "status": if is_right(section) { "passed" } else { "failed" },
-            "output": section_in_words(section),
-            "output_format": "text", "visibility": "visible",
-        })
-    };
-    let (all, score) = (sections.len(), points(right));
-    let output = format!("C++: {right} of {all} sections right, {score} of {best} points\n");
-    Part { score: Some(score), output, tests: sections.iter().map(test).collect() }
-}
-
-fn why_not_run(builds: &Builds) -> String {
-    let file = builds.file.as_deref().unwrap_or("a file");
-    match (builds.status.as_str(), &builds.what, &builds.message) {
-        ("missing-file", ..) => format!("expected a file {file}, found none"),
-        (_, Some(what), _) => format!(
-            "the program {what} before any function of the assignment is called: look at static \
-             variables and their constructors"
-        ),
-        (_, _, Some(message)) => match builds.line {
-            Some(line) => format!("it does not build: {file}:{line}: {message}"),
-            None => format!("it does not build: {message}"),
-        },
-        _ => "it does not build".to_owned(),
-    }
-}
-
-fn section_in_words(section: &Section) -> String {
-    let mut lines = vec![section.status.replace('-', " ")];
-    lines.extend(section.readings.iter().cloned());
-    let faults = section.faults.iter();
-    lines.extend(faults.flat_map(|fault| [fault.found.clone(), format!("-> {}", fault.advice)]));
-    lines.extend(section.remarks.iter().map(|remark| format!("remark: {remark}")));
-    lines.join("\n")
+    let words = ["check", "--quiet", "--format", "gradescope", "--timeout", &each];
+    judged("The C++", &words, submission, arguments)
 }
 
 fn graded(submission: &Path, arguments: &AutogradeArgs) -> Part {
-    let mut words = ["grade", "--format", "gradescope"].map(OsString::from).to_vec();
+    let words = ["grade", "--submission", "--format", "gradescope"];
+    judged("The list or picture", &words, submission, arguments)
+}
+
+/// What the verb in `words` says of `submission`.
+fn judged(what: &str, words: &[&str], submission: &Path, arguments: &AutogradeArgs) -> Part {
+    let mut words: Vec<OsString> = words.iter().map(OsString::from).collect();
     if let Some(policy) = &arguments.policy {
         words.extend([OsString::from("--policy"), policy.into()]);
     }
-    let words: Vec<&OsStr> = words.iter().map(OsString::as_os_str).collect();
-    let result: Value = match run_verb(&words, submission, arguments.timeout) {
+    let result = match run_verb(&words, submission, arguments.timeout) {
         Ok(result) => result,
-        Err(why) => return Part::failed("The list or picture", &why),
+        Err(why) => return Part::failed(what, &why),
     };
     let tests = result["tests"].as_array().cloned().unwrap_or_default();
     let output = result["output"].as_str().unwrap_or_default().to_owned();
-    Part { score: result["score"].as_f64(), output, tests }
+    let is_unreadable = result["extra_data"]["verdict"] == "unreadable";
+    Part { score: result["score"].as_f64().filter(|_| !is_unreadable), output, tests }
 }
 
 /// Runs this program with `words` and `submission`, and reads the JSON that it prints.
-fn run_verb<T: serde::de::DeserializeOwned>(
-    words: &[&OsStr],
-    submission: &Path,
-    seconds: u64,
-) -> Result<T, String> {
+fn run_verb(words: &[OsString], submission: &Path, seconds: u64) -> Result<Value, String> {
     let said = |error: std::io::Error| error.to_string();
     // Files, not pipes: a full pipe would stop the program.
     let folder = tempfile::tempdir().map_err(said)?;

@@ -137,7 +137,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
                 let of_list = grading::submission::Submission { name, ..Default::default() };
                 pages.page(&of_list, &graded)
             }
-            FormatName::Gradescope => json(&gradescope::results(&graded.grade, best)),
+            FormatName::Gradescope => json(&gradescope::results(&graded.grade, &grading.policy)),
             _ => String::new(),
         };
         if let Some(path) = &arguments.list {

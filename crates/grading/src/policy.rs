@@ -25,6 +25,8 @@ pub struct Policy {
     pub unreadable: f64,
     /// For an incorrect one with this misreading, in place of the above.
     pub misreadings: BTreeMap<String, f64>,
+    /// For each section of the handout that `check` finds right, by its title, in place of the above.
+    pub sections: BTreeMap<String, f64>,
 }
 
 impl Default for Policy {
@@ -37,6 +39,7 @@ impl Default for Policy {
             no_dots: 1.0,
             unreadable: 0.0,
             misreadings: BTreeMap::new(),
+            sections: BTreeMap::new(),
         }
     }
 }
@@ -68,9 +71,20 @@ impl Policy {
             ("no-dots", self.no_dots),
             ("unreadable", self.unreadable),
         ];
-        let misreadings = self.misreadings.iter().map(|(id, score)| (id.as_str(), *score));
-        let mut all = named.into_iter().chain(misreadings);
+        let others = self.misreadings.iter().chain(&self.sections);
+        let mut all = named.into_iter().chain(others.map(|(id, score)| (id.as_str(), *score)));
         all.find(|(_, score)| !(0.0..=self.correct).contains(score))
+    }
+
+    /// The sum of the points of sections; none where they have none.
+    pub fn of_all_sections(&self) -> Option<f64> {
+        (!self.sections.is_empty()).then(|| rounded(self.sections.values().sum()))
+    }
+
+    /// The points for the sections titled `right`; none where sections have none.
+    pub fn of_sections<'a>(&self, right: impl Iterator<Item = &'a str>) -> Option<f64> {
+        let points = right.map(|title| self.sections.get(title).copied().unwrap_or_default());
+        (!self.sections.is_empty()).then(|| rounded(points.sum()))
     }
 
     /// The highest score.
@@ -79,4 +93,9 @@ impl Policy {
             [self.undecided, self.plausible, self.incorrect, self.no_dots, self.unreadable];
         others.into_iter().fold(self.correct, f64::max)
     }
+}
+
+/// `score` without what adding in binary leaves behind: 2.4 must not become 2.4000000000000004.
+fn rounded(score: f64) -> f64 {
+    (score * 1e6).round() / 1e6
 }

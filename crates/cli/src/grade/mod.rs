@@ -60,8 +60,10 @@ the folder --out, html also an index.html.
 
 Policy: a JSON object that gives scores, each of which may be left out, by default
   { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \"unreadable\": 0, \"misreadings\": {} }
-'undecided' is for lists with too few photons to tell: look at them yourself. 'plausible' is for incorrect photons that are finite, on surfaces and indirect only; 'misreadings' gives \
-incorrect ones with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }.
+'undecided' is for lists with too few photons to tell: look at them yourself. 'plausible' is for \
+incorrect photons that are finite, on surfaces and indirect only. 'misreadings' gives incorrect ones \
+with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' \
+gives the points of each section that 'check' finds right, by its title.
 
 Exit codes: 0 graded, whatever the grades; 2 could not be carried out.")]
 pub struct GradeArgs {
@@ -284,8 +286,7 @@ impl Class<'_> {
         if self.format != FormatName::Gradescope {
             return;
         }
-        let best = self.settings.policy.best();
-        let results = json(&gradescope::results(&kept.grade, best));
+        let results = json(&gradescope::results(&kept.grade, &self.settings.policy));
         match &self.folder {
             Some(folder) => kept.failed(write(&folder.join(&self.files[at]), &results)),
             None => kept.output = results,

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::error::CliError;
 use grading::policy::Policy;
 use variants::misreadings::names;
+use variants::section::Section;
 
 /// The policy in the file `path`, or the handout's.
 ///
@@ -28,6 +29,15 @@ pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
         return Err(wrong(format!(
             "'{name}' is {score}, which is not from 0 to 'correct', {best}"
         )));
+    }
+    let titles = Section::ALL.map(Section::title);
+    if let Some(title) = policy.sections.keys().find(|title| !titles.contains(&title.as_str())) {
+        let known = titles.join(", ");
+        return Err(wrong(format!("no section is called '{title}'; there are {known}")));
+    }
+    if let Some(sum) = policy.of_all_sections().filter(|sum| *sum != policy.correct) {
+        let best = policy.correct;
+        return Err(wrong(format!("the points of the sections add up to {sum}, not to {best}")));
     }
     let known = names();
     match policy.misreadings.keys().find(|id| !known.contains(&id.as_str())) {
