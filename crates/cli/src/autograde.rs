@@ -235,6 +235,8 @@ fn section_in_words(section: &Section) -> String {
 fn graded(submission: &Path, arguments: &AutogradeArgs) -> Part {
     let mut words = ["grade", "--format", "gradescope"].map(OsString::from).to_vec();
     if let Some(policy) = &arguments.policy {
+        // The verb runs in another folder.
+        let policy = std::path::absolute(policy).unwrap_or_else(|_| policy.clone());
         words.extend([OsString::from("--policy"), policy.into()]);
     }
     let words: Vec<&OsStr> = words.iter().map(OsString::as_os_str).collect();
@@ -260,7 +262,9 @@ fn run_verb<T: serde::de::DeserializeOwned>(
     let [stdout, stderr] = paths.each_ref().map(File::create);
     let mut child = Command::new(std::env::current_exe().map_err(said)?)
         .args(words)
-        .arg(submission)
+        // Students read the name, and need not read where Gradescope keeps their files.
+        .arg(submission.file_name().unwrap_or_default())
+        .current_dir(submission.parent().unwrap_or(submission))
         .stdin(Stdio::null())
         .stdout(stdout.map_err(said)?)
         .stderr(stderr.map_err(said)?)
