@@ -153,6 +153,8 @@ fn graded(submission: &Path, arguments: &AutogradeArgs) -> Part {
 fn judged(what: &str, words: &[&str], submission: &Path, arguments: &AutogradeArgs) -> Part {
     let mut words: Vec<OsString> = words.iter().map(OsString::from).collect();
     if let Some(policy) = &arguments.policy {
+        // The verb runs in another folder.
+        let policy = std::path::absolute(policy).unwrap_or_else(|_| policy.clone());
         words.extend([OsString::from("--policy"), policy.into()]);
     }
     let result = match run_verb(&words, submission, arguments.timeout) {
@@ -174,7 +176,9 @@ fn run_verb(words: &[OsString], submission: &Path, seconds: u64) -> Result<Value
     let [stdout, stderr] = paths.each_ref().map(File::create);
     let mut child = Command::new(std::env::current_exe().map_err(said)?)
         .args(words)
-        .arg(submission)
+        // Students read the name, and need not read where Gradescope keeps their files.
+        .arg(submission.file_name().unwrap_or_default())
+        .current_dir(submission.parent().unwrap_or(submission))
         .stdin(Stdio::null())
         .stdout(stdout.map_err(said)?)
         .stderr(stderr.map_err(said)?)

@@ -2,6 +2,7 @@
 
 mod autograde;
 mod beside_expected;
+#[cfg(unix)]
 mod check;
 mod compare;
 mod error;
@@ -69,6 +70,7 @@ enum Command {
     /// Trace the photons, write their list, and draw the picture
     Render(Box<render::RenderArgs>),
     /// Compile and run a submission's two C++ files, and judge each section of the handout
+    #[cfg(unix)]
     Check(check::CheckArgs),
     /// Hold a photon list (or a picture) against the reference
     Compare(Box<compare::CompareArgs>),
@@ -129,6 +131,7 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         None => render::run(&cli.render),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Expect(arguments)) => expect::run(&arguments),
+        #[cfg(unix)]
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),

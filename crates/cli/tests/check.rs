@@ -1,4 +1,5 @@
 //! `check` as a grader runs it, on a solution written as a student would.
+#![cfg(unix)]
 
 mod support;
 

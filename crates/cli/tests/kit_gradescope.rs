@@ -1,5 +1,6 @@
 //! The autograder for Gradescope, run as Gradescope runs it: in a root of its own where the system
 //! lets us make one, else in a folder of its own.
+#![cfg(unix)]
 
 mod support;
 
@@ -150,7 +151,8 @@ fn a_list_gets_its_points() {
         fs::remove_file(submission.join("assignment8.png")).expect("a picture is drawn too");
     });
     assert_eq!(results["score"], 4.0, "{results}");
-    assert!(results["output"].as_str().expect("a text").contains("correct"), "{results}");
+    let output = results["output"].as_str().expect("a text");
+    assert!(output.starts_with("submission: correct"), "{output}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The Slurm script of docs/large-runs.md, run on a Slurm of one node: with a task that is
 //! requeued, the parts make up the golden list.
+#![cfg(unix)]
 
 mod support;
 

@@ -85,11 +85,19 @@ fn write(out: &Path, files: &[KitFile]) -> Result<(), CliError> {
         let folder = path.parent().unwrap_or(out);
         fs::create_dir_all(folder).map_err(unwritable(folder))?;
         fs::write(&path, content).map_err(unwritable(&path))?;
-        #[cfg(unix)]
         if *is_executable {
-            let executable = std::os::unix::fs::PermissionsExt::from_mode(0o755);
-            fs::set_permissions(&path, executable).map_err(unwritable(&path))?;
+            make_executable(&path).map_err(unwritable(&path))?;
         }
     }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn make_executable(path: &Path) -> std::io::Result<()> {
+    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o755))
+}
+
+#[cfg(not(unix))]
+fn make_executable(_: &Path) -> std::io::Result<()> {
     Ok(())
 }
