@@ -53,7 +53,7 @@ struct Variant {
         bounce_off_by_one, starts_at_light, transposed_twice, unit_roulette, inverted_roulette,
         along_normal, octant;
     // Readings
-    bool literal, axis_z, first_axis_y, exchanged, u2_first, zyx;
+    bool literal, axis_z, first_axis_y, exchanged, u2_first, zyx, other_frame;
     float threshold, offset_normal, offset_direction, offset_back, pull_back;
 };
 
@@ -101,6 +101,7 @@ const Choice readings[] = {
     {"exchanged", &Variant::exchanged, "t and b exchanged"},
     {"u2-first", &Variant::u2_first, "u2 is drawn before u1"},
     {"zyx", &Variant::zyx, "z is drawn first, x last"},
+    {"other-frame", &Variant::other_frame, "t and b as Duff and others have them"},
 };
 
 struct Length {
@@ -324,6 +325,15 @@ Vec3 sample_hemisphere(const Variant& variant) {
 Vec3 to_world(Vec3 local, Vec3 n, const Variant& variant) {
     if (variant.along_normal) {
         return n;
+    }
+    if (variant.other_frame) {
+        // T. Duff and others, "Building an Orthonormal Basis, Revisited" (2017).
+        const float sign = std::copysign(1.0f, n.z);
+        const float a = -1.0f / (sign + n.z);
+        const float b = n.x * n.y * a;
+        const Vec3 across = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+        const Vec3 along = vec3(b, sign + n.y * n.y * a, -n.y);
+        return normalize(local.x * across + local.y * along + local.z * n);
     }
     const bool misses_minus_x = variant.no_absolute_value || variant.nan_frame;
     const Vec3 axis = variant.first_axis_y ? vec3(0, 1, 0) : vec3(1, 0, 0);

@@ -211,12 +211,13 @@ fn the_section_of_every_mistake_is_named() {
     }
 }
 
-const READINGS: [(&str, &str); 12] = [
+const READINGS: [(&str, &str); 13] = [
     ("--reading literal", "t and b to the letter of the handout, not normalised"),
     ("--threshold 0.7", "fallback threshold between 0.3011 and 0.9536"),
     ("--reading axis-z", "fallback axis (0, 0, 1)"),
     ("--reading first-axis-y", "the axis (0, 1, 0) in equation (7)"),
     ("--reading exchanged", "t and b exchanged"),
+    ("--reading other-frame", "another frame of unit vectors around the normal"),
     ("--reading u2-first", "at each hit, the roulette's number, u2, u1 drawn in this order"),
     ("--reading zyx", "in each try, z, y, x drawn in this order"),
     ("--offset-normal 1e-4", "offset 1e-4 along the normal"),
@@ -263,6 +264,11 @@ fn a_mistake_is_found_behind_a_fair_reading() {
         (
             "--mistake unit-roulette --reading first-axis-y",
             "the axis (0, 1, 0) in equation (7)",
+            "Photon Scattering/Absorption",
+        ),
+        (
+            "--mistake unit-roulette --reading other-frame",
+            "another frame of unit vectors around the normal",
             "Photon Scattering/Absorption",
         ),
         (

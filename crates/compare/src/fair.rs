@@ -4,6 +4,7 @@
 use glam::Vec3;
 
 use crate::explain::{Emission, Ending, Hit, Sample, Story, hit, light_of, survival};
+use crate::measured_frame::MeasuredFrame;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::sampling::sample_hemisphere;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
@@ -62,6 +63,8 @@ pub struct Fair {
     pub draws: Draws,
     /// The frame around the normal.
     pub frame: Frame,
+    /// How that is turned, where it is none of the known ones.
+    pub measured: Option<MeasuredFrame>,
     /// How far the start of the scattered ray is from where the reference has it.
     pub start: Shift,
     /// How far positions are stored from the hit.
@@ -95,6 +98,7 @@ impl Fair {
             tries: Tries::REFERENCE,
             draws: Draws { order: [0, 1, 2], complement: false },
             frame: Frame::of(&run.reading)?,
+            measured: None,
             start: Shift::default(),
             stored: Shift::default(),
         })
@@ -157,7 +161,9 @@ impl Fair {
         numbers[place + 1..].fill_with(rand);
         let (u1, u2) = (numbers[of_u1], numbers[of_u2]);
         let u1 = if self.draws.complement { 1.0 - u1 } else { u1 };
-        let frame = self.frame.matrix(state.compute_normal(run.scene()));
+        let normal = state.compute_normal(run.scene());
+        let known = self.frame.matrix(normal);
+        let frame = self.measured.map_or(known, |measured| known * measured.turn(normal));
         (roulette, Some(Sample { u1, u2, frame, local: sample_hemisphere(u1, u2) }))
     }
 
@@ -217,6 +223,9 @@ impl Fair {
         let transformation = Section::HemisphereRayTransformation;
         for change in self.frame.changes(&base.frame, &normals(run)) {
             add(transformation, change);
+        }
+        if self.measured.is_some() {
+            add(transformation, "another frame of unit vectors around the normal".to_owned());
         }
         if let Some(change) = self.start_change(run) {
             add(transformation, change);

@@ -123,6 +123,9 @@ impl Search<'_> {
         let before = self.score(base, &told);
         let mut finalists = self.frames(base, &told);
         if finalists.is_empty() {
+            finalists.extend(self.measured_frame(base, &told));
+        }
+        if finalists.is_empty() {
             let [roulette, a, b] = base.draws.order;
             for (order, complement) in
                 [([roulette, b, a], false), ([roulette, a, b], true), ([roulette, b, a], true)]

@@ -19,6 +19,7 @@ mod fair_offsets;
 pub mod fair_search;
 pub mod hypotheses;
 pub mod known;
+pub mod measured_frame;
 pub mod numbering;
 pub mod numbers;
 pub mod pictures;

@@ -87,20 +87,22 @@ std::uint32_t next_word() {
     return numbers.words[numbers.next++];
 }
 
-// The next number in units of 2^-24.
+// The next number in units of 2^-31, of which the last seven bits are no part of the reference's.
 std::uint32_t draw() {
     ++numbers.drawn;
     if (numbers.scripted_left > 0) {
         --numbers.scripted_left;
-        return *numbers.scripted++;
+        return *numbers.scripted++ << 7;
     }
-    return next_word() >> 8;
+    const std::uint32_t word = next_word();
+    // Six bits more, for those who take the remainder, as in rand() % 100. With them, a float still does
+    // not round up to 1.
+    return (word >> 8 << 7) | (word & 63);
 }
 
-// Divided by RAND_MAX, as float or double, this is the reference's number and never 1: a 31-bit
-// number might round up to 1, but the seven lowest bits of this one are zero.
-int draw_int() { return static_cast<int>(draw() << 7); }
-double draw_double() { return draw() / 16777216.0; }
+// Divided by RAND_MAX, as float or double, this is the reference's number, to 3e-8, and never 1.
+int draw_int() { return static_cast<int>(draw()); }
+double draw_double() { return (draw() >> 7) / 16777216.0; }
 
 } // namespace
 

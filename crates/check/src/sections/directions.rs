@@ -19,6 +19,8 @@ pub struct Scattered {
     pub from: Vec3,
     /// Its direction, as it was handed to `Trace`.
     pub direction: Vec3,
+    /// The direction of the ray that came in, of length 1.
+    pub incoming: Vec3,
     /// Whether the ray met the wall it left.
     pub met_again: bool,
 }
@@ -143,6 +145,7 @@ fn of_call(call: &Call) -> Option<Scattered> {
         hit: first.hit(),
         from: second.from,
         direction: second.direction,
+        incoming: first.direction.normalize_or_zero(),
         met_again: second.met,
     })
 }

@@ -181,13 +181,14 @@ fn judge_law(directions: &[Vec3], verdict: &mut Verdict) {
     }
     let [x, y, z] = [0, 1, 2].map(|axis| mean(&found[axis]));
     let above = directions.iter().filter(|direction| direction.z > 0.0).count();
+    let is_half = above == 0 || above == directions.len();
     let found = format!(
         "directions are not even over the sphere: their mean is ({x:.3}, {y:.3}, {z:.3}), where (0, 0, 0) is \
          due, and {above} of {} go up",
         directions.len()
     );
     verdict.fault(
-        None,
+        is_half.then_some("half-directions"),
         found,
         "Draw x, y and z one by one in [-1, 1), and again while x^2 + y^2 + z^2 > 1.",
     );

@@ -1,7 +1,7 @@
 //! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
 
 use super::Verdict;
-use super::directions::{Directions, FEWEST, Frame};
+use super::directions::{Directions, FEWEST, Frame, Scattered};
 use crate::plan::Step;
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform, mean};
@@ -100,6 +100,19 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
         verdict.fault(Some("along-normal"), found, advice);
         return;
     }
+    let always = |expected: &dyn Fn(&Scattered) -> glam::Vec3| {
+        rays.iter().all(|ray| ray.direction.normalize_or_zero().abs_diff_eq(expected(ray), 1e-3))
+    };
+    if always(&|ray| ray.incoming.reflect(glam::Vec3::Z)) {
+        let found = "all photons are reflected as by a mirror".to_owned();
+        verdict.fault(None, found, NEW_NUMBERS);
+        return;
+    }
+    if always(&|ray| ray.incoming) {
+        let found = "all photons go on in the direction in which they came".to_owned();
+        verdict.fault(None, found, NEW_NUMBERS);
+        return;
+    }
     if below > 0 && below < total {
         let found = format!("{below} of {total} directions go below the floor, where none is due");
         verdict.fault(
@@ -129,7 +142,8 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
         let advice = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).";
         verdict.fault(None, found, advice);
     }
-    if !directions.is_even_around {
+    // Where neither angle follows, one sentence is enough.
+    if !directions.is_even_around && (law.is_some() || is_uniform(sines)) {
         let (x, y): (Vec<_>, Vec<_>) =
             rays.iter().map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y))).unzip();
         let found = format!(
@@ -144,7 +158,7 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
 
 /// Whether the angle to the normal and that around it are independent.
 fn judge_pairs(directions: &Directions, verdict: &mut Verdict) {
-    let angle = |ray: &super::directions::Scattered| {
+    let angle = |ray: &Scattered| {
         let d = ray.direction;
         // Around whichever axis the floor's directions lie.
         match directions.frame_of_floor {

@@ -46,7 +46,9 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
     } else {
         judge_first(calls(Step::StoreFirst), &mut verdict);
         judge_later(&calls, &mut verdict);
-        judge_growth(calls(Step::GrowPath), &mut verdict);
+        if observed.death(Step::GrowPath).is_none() {
+            judge_growth(calls(Step::GrowPath), &mut verdict);
+        }
         judge_limit(&calls, &mut verdict);
         judge_values(&calls, &mut verdict);
         let missed = calls(Step::StoreMiss).iter().filter(|call| !call.stored.is_empty()).count();
@@ -80,8 +82,8 @@ fn judge_first(calls: &[Call], verdict: &mut Verdict) {
 fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     let stores_the_scattered = calls(Step::GrowPath).iter().any(|call| !call.stored.is_empty());
     for path in [2, 3] {
-        let calls = calls(Step::StoreLater(path));
-        let with_hit: Vec<_> = calls.iter().filter(|call| call.hits().next().is_some()).collect();
+        let of_step = calls(Step::StoreLater(path));
+        let with_hit: Vec<_> = of_step.iter().filter(|call| call.hits().next().is_some()).collect();
         let none = with_hit.iter().filter(|call| call.stored.is_empty()).count();
         if none > 0 {
             let found = format!(
@@ -89,7 +91,14 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
                  is black",
                 with_hit.len()
             );
-            let (name, advice) = if stores_the_scattered {
+            let stores_third =
+                path == 2 && calls(Step::StoreLater(3)).iter().all(|call| !call.stored.is_empty());
+            let (name, advice) = if stores_third {
+                (
+                    "third-hit-on",
+                    "The light is the first entry of 'path': store where its size is larger than 1, not 2.",
+                )
+            } else if stores_the_scattered {
                 (
                     "absorbed-not-stored",
                     "Store a photon before the roulette decides what becomes of it.",
@@ -143,7 +152,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
         );
         verdict.fault(Some("direct-stored"), found, ONLY_LATER);
     }
-    let is_told = ["direct-stored", "not-stored", "absorbed-not-stored"];
+    let is_told = ["direct-stored", "not-stored", "absorbed-not-stored", "third-hit-on"];
     if is_told.iter().any(|name| has_fault(verdict, name)) {
         return;
     }

@@ -166,6 +166,7 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
     let walls = directions.walls.iter().map(|(normal, rays)| (*normal, rays));
     let all = walls.chain([(Vec3::Z, &directions.floor)]);
     let mut offsets = Vec::new();
+    let mut distances: Vec<f32> = Vec::new();
     let (mut again, mut above) = (0_usize, 0_usize);
     let mut elsewhere: Option<(Vec3, Vec3)> = None;
     let all = all.flat_map(|(normal, rays)| rays.iter().map(move |ray| (normal, ray)));
@@ -175,9 +176,10 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
         let direction = ray.direction.normalize_or_zero();
         if offset.length() > ELSEWHERE || !offset.is_finite() {
             elsewhere.get_or_insert((ray.from, ray.hit));
+            distances.push(offset.length());
             continue;
         }
-        offsets.push((offset, normal, direction));
+        offsets.push((offset, normal, direction, ray.incoming));
         // A ray that goes down meets the surface, wherever it starts.
         if direction.dot(normal) > 1e-3 {
             above += 1;
@@ -185,10 +187,19 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
         }
     }
     if let Some((from, hit)) = elsewhere {
-        let found =
-            format!("a scattered ray starts at {from}, and the photon hit the wall at {hit}");
-        let advice = "Start the new ray at the point that was hit.";
-        verdict.fault(Some("start-not-moved"), found, advice);
+        let found = format!(
+            "a scattered ray starts at {}, and the photon hit the wall at {}: it is {:.2} away",
+            short(from),
+            short(hit),
+            from.distance(hit)
+        );
+        let is_constant = distances.iter().all(|other| (other / distances[0] - 1.0).abs() < 0.01);
+        let (name, advice) = if is_constant {
+            (None, "Start the new ray at the point that was hit, and only 1e-5 above it.")
+        } else {
+            (Some("start-not-moved"), "Start the new ray at the point that was hit.")
+        };
+        verdict.fault(name, found, advice);
         return;
     }
     let lengths = offsets.iter().map(|(offset, ..)| offset.length());
@@ -216,20 +227,22 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
         );
         return;
     }
-    let aside = |axis: &dyn Fn(Vec3, Vec3) -> Vec3| {
-        offsets.iter().all(|(offset, normal, direction)| {
-            let axis = axis(*normal, *direction);
+    let aside = |axis: &dyn Fn(Vec3, Vec3, Vec3) -> Vec3| {
+        offsets.iter().all(|(offset, normal, direction, incoming)| {
+            let axis = axis(*normal, *direction, *incoming);
             (*offset - offset.dot(axis) * axis).length() < 0.05 * length + 3e-7
         })
     };
     let rounded = rounded(length);
-    let along = if aside(&|normal, _| normal) {
+    let along = if aside(&|normal, _, _| normal) {
         if (rounded - 1e-5).abs() < 1e-6 {
             return;
         }
         "along the normal"
-    } else if aside(&|_, direction| direction) {
+    } else if aside(&|_, direction, _| direction) {
         "along the new direction"
+    } else if aside(&|_, _, incoming| incoming) {
+        "back along the ray"
     } else {
         "off the point that was hit"
     };

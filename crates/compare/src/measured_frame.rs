@@ -1,0 +1,128 @@
+//! A frame around the normals that is measured, not known: whoever takes any two unit vectors at right
+//! angles to the normal and to each other samples the same directions.
+
+use std::f32::consts::TAU;
+
+use glam::{Mat3, Vec3};
+
+use crate::fair::Fair;
+use crate::fair_search::{Search, Window};
+use variants::frame::Frame;
+
+/// So many normals are told apart; a scene with more of them is not measured.
+const MOST_NORMALS: usize = 16;
+/// Fewer directions around a normal say nothing of its frame.
+const FEWEST: usize = 4;
+/// The height over the surface may be this far off: a ray may start elsewhere.
+const HEIGHT: f32 = 0.03;
+/// Angles this far apart, in radians, are not of one frame.
+const ANGLE: f32 = 0.05;
+
+/// For each normal, by how much the frame is turned around it against the reference's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredFrame {
+    count: usize,
+    normals: [Vec3; MOST_NORMALS],
+    /// In radians.
+    angles: [f32; MOST_NORMALS],
+    mirrored: [bool; MOST_NORMALS],
+}
+
+impl MeasuredFrame {
+    /// The matrix from the measured tangent space to the reference's at `normal`.
+    pub fn turn(&self, normal: Vec3) -> Mat3 {
+        let known = self.normals[..self.count].iter().position(|n| n.abs_diff_eq(normal, 1e-4));
+        let Some(at) = known else { return Mat3::IDENTITY };
+        let side = if self.mirrored[at] { -1.0 } else { 1.0 };
+        Mat3::from_rotation_z(self.angles[at]) * Mat3::from_diagonal(Vec3::new(1.0, side, 1.0))
+    }
+}
+
+/// Of one photon that scatters at its first hit: the azimuth due, and the one found.
+struct Azimuths {
+    normal: Vec3,
+    due: f32,
+    found: f32,
+}
+
+impl Search<'_> {
+    /// `base` with the frame that is measured in `windows`, if there is one in which nearly all photons
+    /// leave their first hit at the right height and, around each normal, at one angle to the right one.
+    pub(crate) fn measured_frame(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
+        let base = &Fair { frame: Frame::REFERENCE, ..*base };
+        let mut all = Vec::new();
+        let mut wrong = 0;
+        for window in windows.iter().filter(|window| window.is_exact) {
+            match self.azimuths(base, window) {
+                Some(Ok(azimuths)) => all.push(azimuths),
+                Some(Err(())) => wrong += 1,
+                None => {}
+            }
+        }
+        if all.len() < 2 * FEWEST || 10 * wrong > all.len() {
+            return None;
+        }
+        let mut frame = MeasuredFrame {
+            count: 0,
+            normals: [Vec3::ZERO; MOST_NORMALS],
+            angles: [0.0; MOST_NORMALS],
+            mirrored: [false; MOST_NORMALS],
+        };
+        while let Some(normal) = all.first().map(|first| first.normal) {
+            let (here, others): (Vec<_>, Vec<_>) =
+                all.into_iter().partition(|one| one.normal.abs_diff_eq(normal, 1e-4));
+            all = others;
+            if here.len() < FEWEST {
+                continue;
+            }
+            if frame.count == MOST_NORMALS {
+                return None;
+            }
+            let plain = one_angle(here.iter().map(|one| one.found - one.due));
+            let turned = || one_angle(here.iter().map(|one| one.found + one.due));
+            let (angle, mirrored) =
+                plain.map(|a| (a, false)).or_else(|| turned().map(|a| (a, true)))?;
+            frame.normals[frame.count] = normal;
+            frame.angles[frame.count] = angle;
+            frame.mirrored[frame.count] = mirrored;
+            frame.count += 1;
+        }
+        (frame.count > 0).then_some(Fair { measured: Some(frame), ..*base })
+    }
+
+    /// The azimuths of a photon; an error where its height is wrong, nothing where it says nothing.
+    fn azimuths(&self, base: &Fair, window: &Window) -> Option<Result<Azimuths, ()>> {
+        let story = base.story(self.run, window.photon)?;
+        let hit = story.hits.first()?;
+        let (u1, u2) = (hit.u1?, hit.u2?);
+        let way = *window.positions.first()? - hit.point();
+        let normal = Vec3::from_array(hit.normal);
+        let local = base.frame.matrix(normal).inverse() * way.normalize_or_zero();
+        // Near the normal, and near the hit, an azimuth means nothing.
+        if way.length() < 0.1 * self.size || u1 < 0.1 {
+            return None;
+        }
+        if (local.z - (1.0 - u1).sqrt()).abs() > HEIGHT {
+            return Some(Err(()));
+        }
+        Some(Ok(Azimuths { normal, due: TAU * u2, found: libm::atan2f(local.y, local.x) }))
+    }
+}
+
+/// The angle about which nearly all of `angles` are, in radians; nothing where they are spread.
+fn one_angle(angles: impl Iterator<Item = f32>) -> Option<f32> {
+    let angles: Vec<_> = angles.collect();
+    let away = |a: f32, b: f32| {
+        let turns = (a - b) / TAU;
+        TAU * (turns - turns.round())
+    };
+    let near =
+        |angle: f32| angles.iter().filter(|other| away(**other, angle).abs() < ANGLE).count();
+    let middle = angles.iter().copied().max_by_key(|angle| near(*angle))?;
+    if 10 * near(middle) < 9 * angles.len() {
+        return None;
+    }
+    let mut offsets: Vec<_> = angles.iter().map(|angle| away(*angle, middle)).collect();
+    offsets.sort_unstable_by(f32::total_cmp);
+    Some(middle + offsets[offsets.len() / 2])
+}
