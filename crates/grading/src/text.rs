@@ -46,6 +46,9 @@ pub fn verdict_in_words(verdict: Verdict) -> &'static str {
 /// `grade`, of at most `best` points.
 pub fn text(grade: &Grade, best: f64) -> String {
     let mut text = heading(grade, best);
+    for note in &grade.for_course {
+        text += &format!("  for the course: {note}\n");
+    }
     let mut advised = "";
     for finding in &grade.findings {
         text += &line(finding);

@@ -71,8 +71,8 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     if chunks(bytes).any(|chunk| chunk.get(4..8) == Some(b"acTL")) {
         return Err(format!("it is animated: {WANTED}"));
     }
-    let bytes = &pixels_alone(bytes);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
+    let pixels = pixels_alone(bytes);
+    let decoder = PngDecoder::with_limits(Cursor::new(&pixels), limits).map_err(broken)?;
     if !decoder.color_type().has_color() {
         return Err(format!("it is grey, and dots are red: {WANTED}"));
     }
