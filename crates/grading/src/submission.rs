@@ -169,8 +169,8 @@ fn own(graded: &Graded, settings: &Settings) -> Option<String> {
     let (list, _) = graded.list.as_ref()?;
     let seed = own::seed_of(&list.records, settings.seed)?;
     Some(format!(
-        "the photons are those of this program with --seed {seed}, or some of them; a right program with \
-         its random numbers stores the same"
+        "the photons are those of this program with --seed {seed}, or some of them; a right \
+         program with its random numbers stores the same"
     ))
 }
 

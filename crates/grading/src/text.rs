@@ -10,8 +10,8 @@ pub fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_odd(letter) { '\u{fffd}' } else { letter }).collect()
 }
 
-/// Whether `letter` has no shape of its own: it separates lines, has no width, or sets the direction of
-/// text.
+/// Whether `letter` has no shape of its own: it separates lines, has no width, or sets the
+/// direction of text.
 pub fn is_invisible(letter: char) -> bool {
     matches!(
         letter,

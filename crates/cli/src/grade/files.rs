@@ -8,8 +8,8 @@ use grading::intake::HandedIn;
 /// The longest name of a file without number and extension, in bytes, of which systems take 255.
 const LONGEST_NAME: usize = 100;
 
-/// For each submission the name of its file: its own, without what systems do not take or what leads
-/// elsewhere, and with `extension`.
+/// For each submission the name of its file: its own, without what systems do not take or what
+/// leads elsewhere, and with `extension`.
 pub fn file_names(handed_in: &[HandedIn], extension: &str) -> Vec<String> {
     // Also for systems that do not tell capitals apart.
     let mut seen = HashSet::from(["index".to_owned()]);
