@@ -71,6 +71,7 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
         misreading_confidence: misreading.map(|_| 1.0),
         misreading_title: faults().find(|fault| fault.name == misreading).map(|f| f.found.clone()),
         findings,
+        for_course: Vec::new(),
     };
     let list = statistics.and_then(|graded| graded.list);
     Graded { grade, list, fingerprint: None, try_again: false }

@@ -52,7 +52,8 @@ impl CliError {
     }
 }
 
-/// Prints `text` to standard output. That its reader has closed it is the reader's choice, no error.
+/// Prints `text` to standard output. That its reader has closed it is the reader's choice, no
+/// error.
 ///
 /// # Errors
 /// When standard output cannot be written.
@@ -74,8 +75,8 @@ pub fn print_whole(text: &str) -> Result<(), CliError> {
         .map_err(CliError::Output)
 }
 
-/// `text` without letters that move the cursor, hide or turn others round: as `\u001b`, which means the
-/// same in JSON.
+/// `text` without letters that move the cursor, hide or turn others round: as `\u001b`, which means
+/// the same in JSON.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     let is_odd = |letter: char| {
         (letter.is_control() && !"\n\t".contains(letter)) || grading::text::is_invisible(letter)

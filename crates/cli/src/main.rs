@@ -107,8 +107,8 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     if let Some(file) = options_that_are_files(&words).next() {
         let file = file.to_string_lossy();
         complain(&format!(
-            "error: '{file}' is an option, but also a file here: write -- before the names of files, or \
-             ./{file}"
+            "error: '{file}' is an option, but also a file here: write -- before the names of files, \
+             or ./{file}"
         ));
         return FAILED;
     }
@@ -153,7 +153,8 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Options for which there is a file of the same name: with `grade *`, a student would choose options.
+/// Options for which there is a file of the same name: with `grade *`, a student would choose
+/// options.
 fn options_that_are_files(words: &[OsString]) -> impl Iterator<Item = &OsString> {
     let options = words.iter().skip(1).take_while(|word| *word != "--");
     let is_option = |word: &OsString| word.len() > 1 && word.to_string_lossy().starts_with('-');

@@ -252,6 +252,23 @@ fn standard_input_and_powers_of_ten() {
     }
 }
 
+#[test]
+fn own_lists_are_told_to_the_course_alone() {
+    let folder = folder();
+    let list = write(folder.path().join("a.csv"), csv(5, 60_000));
+    let told = "this program with --seed 5";
+    let grade = &grades(&[], &[&list])[0];
+    assert_eq!(grade["verdict"], "correct");
+    assert!(grade["for_course"][0].as_str().unwrap().contains(told), "{grade:#}");
+    let gradescope = json(run_line("grade --format gradescope {}", &[&list]).success());
+    let tests = gradescope["tests"].to_string() + gradescope["output"].as_str().unwrap();
+    assert!(!tests.contains(told), "{tests}");
+    let page = support::stdout(run_line("grade --format html {}", &[&list]).success());
+    assert!(!page.contains(told));
+    let other = write(folder.path().join("b.csv"), csv(5000, 60_000));
+    assert!(grades(&[], &[&other])[0].get("for_course").is_none());
+}
+
 /// The grades of `paths`.
 fn grades(options: &[&str], paths: &[&Path]) -> Vec<Value> {
     let words = ["grade", "--format", "json", "--emitted", "60000"].iter().chain(options);

@@ -8,8 +8,8 @@ use super::text::printable;
 use super::verdict::SAME_FILES;
 
 /// The grade of `handed_in`, by `grade` unless its files say before that there is nothing to grade.
-/// A fault of the grader is no fault of the student, but the grade must say what happened. None if `grade`
-/// gives none.
+/// A fault of the grader is no fault of the student, but the grade must say what happened. None if
+/// `grade` gives none.
 pub fn grade_one(
     handed_in: &HandedIn,
     settings: &Settings,

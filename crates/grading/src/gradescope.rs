@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::policy::Policy;
+use super::policy::{Policy, points};
 use super::text;
 use super::verdict::{Finding, Grade};
 
@@ -38,8 +38,8 @@ struct Test<'a> {
 pub fn results<'a>(grade: &'a Grade, policy: &Policy) -> Results<'a> {
     let tests = grade.findings.iter().enumerate().map(|(at, finding)| Test {
         name: finding.check,
-        score: points(grade, at, policy).map(|(score, _)| score),
-        max_score: points(grade, at, policy).map(|(_, most)| most),
+        score: points(grade, at, policy).map(|points| points.score),
+        max_score: points(grade, at, policy).map(|points| points.most),
         // What costs nothing must not look as if it did.
         status: if finding.is_fault() { "failed" } else { "passed" },
         number: (at + 1).to_string(),
@@ -57,14 +57,4 @@ pub fn results<'a>(grade: &'a Grade, policy: &Policy) -> Results<'a> {
         tests: tests.collect(),
         extra_data: grade,
     }
-}
-
-/// The points and the most points of finding `at`, if it is the first of a section that has points.
-fn points(grade: &Grade, at: usize, policy: &Policy) -> Option<(f64, f64)> {
-    let title = grade.findings[at].check;
-    let most = *policy.sections.get(title)?;
-    let of_section = || grade.findings.iter().filter(|finding| finding.check == title);
-    let is_first = grade.findings[..at].iter().all(|finding| finding.check != title);
-    let is_right = of_section().any(|finding| finding.passed);
-    is_first.then_some((if is_right { most } else { 0.0 }, most))
 }

@@ -17,7 +17,8 @@ const EMITTED: u64 = 1000;
 const NEAR: f32 = 3e-3;
 /// Of a run's photons, this part must be there: also half of a list has it.
 const FOUND: f64 = 0.4;
-/// So many standard deviations more than what chance finds of any run: of 257 runs, the best has 3.5.
+/// So many standard deviations more than what chance finds of any run: of 257 runs, the best has
+/// 3.5.
 const ABOVE_CHANCE: f64 = 6.0;
 
 /// Photons of this program's runs, by place.

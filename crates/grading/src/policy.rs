@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::verdict::Verdict;
+use super::verdict::{Grade, Verdict};
 
 /// Scores by verdict. The default is the handout's rubric: 4 for dots that look reasonable, 2 or 3 for
 /// dots that look incorrect, 1 for no dots, 0 for nothing.
@@ -98,4 +98,25 @@ impl Policy {
 /// `score` without what adding in binary leaves behind: 2.4 must not become 2.4000000000000004.
 fn rounded(score: f64) -> f64 {
     (score * 1e6).round() / 1e6
+}
+
+/// The points of a section of the handout.
+pub struct SectionPoints {
+    /// Its title.
+    pub title: &'static str,
+    /// What it got.
+    pub score: f64,
+    /// What it gets if it is right.
+    pub most: f64,
+}
+
+/// The points by `policy` of the section that finding `at` of `grade` is the first of, if it has any.
+pub fn points(grade: &Grade, at: usize, policy: &Policy) -> Option<SectionPoints> {
+    let title = grade.findings[at].check;
+    let most = *policy.sections.get(title)?;
+    let of_section = || grade.findings.iter().filter(|finding| finding.check == title);
+    let is_first = grade.findings[..at].iter().all(|finding| finding.check != title);
+    let is_right = of_section().any(|finding| finding.passed);
+    let score = if is_right { most } else { 0.0 };
+    is_first.then_some(SectionPoints { title, score, most })
 }

@@ -16,7 +16,7 @@ use super::picture::view::PIXELS;
 use super::policy::Policy;
 use super::text::printable;
 use super::twins::Fingerprint;
-use super::verdict::{Finding, Grade, SAME_FILES, Verdict, Weight};
+use super::verdict::{Finding, Grade, Verdict, Weight};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
@@ -101,7 +101,7 @@ pub fn grade_at_most(
             let mut graded = grade_list(submission, list, settings, expectations);
             graded.fingerprint = fingerprint;
             if graded.grade.verdict == Verdict::Correct {
-                graded.grade.findings.extend(own(&graded, settings));
+                graded.grade.for_course.extend(own(&graded, settings));
             }
             let turned =
                 is_turned.then_some("positions in the model's axes, y up: taken as (x, -z, y)");
@@ -164,15 +164,14 @@ fn not_read(submission: &Submission, settings: &Settings, error: &std::io::Error
     Graded { try_again: true, ..unreadable(submission, settings, &reason) }
 }
 
-/// A remark for the course, if this program's own list was handed in.
-fn own(graded: &Graded, settings: &Settings) -> Option<Finding> {
+/// What the course is told, if this program's own list was handed in.
+fn own(graded: &Graded, settings: &Settings) -> Option<String> {
     let (list, _) = graded.list.as_ref()?;
     let seed = own::seed_of(&list.records, settings.seed)?;
-    let found = format!(
-        "the photons are those of this program with --seed {seed}, or some of them; a right program with \
-         its random numbers stores the same"
-    );
-    Some(remark(SAME_FILES, "photons of the student's own", &found, ""))
+    Some(format!(
+        "the photons are those of this program with --seed {seed}, or some of them; a right \
+         program with its random numbers stores the same"
+    ))
 }
 
 /// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
@@ -218,6 +217,7 @@ fn grade_picture(
         misreading_confidence: misreading.map(|explanation| explanation.confidence),
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
+        for_course: Vec::new(),
     };
     Graded::new(grade)
 }
@@ -293,6 +293,7 @@ pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) ->
         misreading_confidence: None,
         misreading_title: None,
         findings: vec![not_readable(reason)],
+        for_course: Vec::new(),
     };
     Graded::new(grade)
 }
@@ -368,6 +369,7 @@ pub fn grade_list(
         misreading_confidence: misreading.map(|explanation| explanation.confidence),
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
+        for_course: Vec::new(),
     };
     Graded { list: Some((list, judgement)), ..Graded::new(grade) }
 }
@@ -422,6 +424,7 @@ fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
         misreading_confidence: None,
         misreading_title: None,
         findings: vec![finding],
+        for_course: Vec::new(),
     };
     Graded::new(grade)
 }

@@ -10,8 +10,8 @@ pub fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_odd(letter) { '\u{fffd}' } else { letter }).collect()
 }
 
-/// Whether `letter` has no shape of its own: it separates lines, has no width, or sets the direction of
-/// text.
+/// Whether `letter` has no shape of its own: it separates lines, has no width, or sets the
+/// direction of text.
 pub fn is_invisible(letter: char) -> bool {
     matches!(
         letter,
@@ -46,6 +46,9 @@ pub fn verdict_in_words(verdict: Verdict) -> &'static str {
 /// `grade`, of at most `best` points.
 pub fn text(grade: &Grade, best: f64) -> String {
     let mut text = heading(grade, best);
+    for note in &grade.for_course {
+        text += &format!("  for the course: {note}\n");
+    }
     let mut advised = "";
     for finding in &grade.findings {
         text += &line(finding);

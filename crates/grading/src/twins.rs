@@ -9,11 +9,11 @@ use photon_mapping::photon_list::PhotonRecord;
 const KEPT: usize = 128;
 /// Fewer different cells say nothing.
 const FEWEST: usize = 20;
-/// Of this part of their cells, two lists have in common what no two runs have: 0.13 is what those of
-/// 1,000,000 photons emitted share in large cells.
+/// Of this part of their cells, two lists have in common what no two runs have: 0.13 is what those
+/// of 1,000,000 photons emitted share in large cells.
 const SAME: f64 = 0.4;
-/// The size of cells, which rounding to two or three digits leaves as they are. In large cells, long lists
-/// are all alike.
+/// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
+/// long lists are all alike.
 const LARGE_CELL: f32 = 1e-2;
 const SMALL_CELL: f32 = 1e-3;
 /// Longer lists are compared in small cells.

@@ -76,6 +76,9 @@ pub struct Grade {
     pub misreading_title: Option<String>,
     /// In the order in which they are to be read.
     pub findings: Vec<Finding>,
+    /// What students do not see.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub for_course: Vec<String>,
 }
 
 /// The check of files that two students have in common.

@@ -42,8 +42,8 @@ pub(super) struct Start {
     count: Option<(u64, u64)>,
 }
 
-/// Reads up to the first row from line `next` on: also with other separators than commas, and without names of columns
-/// where there are just three.
+/// Reads up to the first row from line `next` on: also with other separators than commas, and
+/// without names of columns where there are just three.
 pub(super) fn start(
     lines: &mut Lines<impl BufRead>,
     mut next: Option<(u64, String)>,

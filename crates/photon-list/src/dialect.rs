@@ -46,8 +46,8 @@ pub(super) struct Dialect {
 }
 
 impl Naming {
-    /// Which columns a file has whose own are called `names`: by our names, else by the same ones in
-    /// capitals, else by those of other programs. `Err` says what is missing or double.
+    /// Which columns a file has whose own are called `names`: by our names, else by the same ones
+    /// in capitals, else by those of other programs. `Err` says what is missing or double.
     pub fn of(names: &[&str]) -> Result<Self, String> {
         // The columns that could be each of ours, and how well they are called so.
         let mut best: [(u8, Vec<usize>); COLUMNS.len()] = Default::default();
@@ -187,8 +187,8 @@ pub(super) fn with_point(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// The values of `row`, without white space and quotes around them. Any amount of white space is one
-/// separator.
+/// The values of `row`, without white space and quotes around them. Any amount of white space is
+/// one separator.
 fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
     let row = row.trim();
     // Some spreadsheets quote whole rows.

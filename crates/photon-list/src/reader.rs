@@ -63,9 +63,9 @@ pub fn load(path: &Path) -> Result<PhotonList, ListError> {
     Ok(PhotonList { columns, records })
 }
 
-/// Reads the list `path` into memory if it is a file of no more than `most` records, in bounded time and
-/// memory whatever it holds. Columns besides the position that cannot be read are left out; the notes
-/// say so.
+/// Reads the list `path` into memory if it is a file of no more than `most` records, in bounded
+/// time and memory whatever it holds. Columns besides the position that cannot be read are left
+/// out; the notes say so.
 ///
 /// # Errors
 /// When the file cannot be read, is not a list, or is too long.
@@ -134,9 +134,9 @@ pub fn look(path: &Path) -> io::Result<Look> {
     })
 }
 
-/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record; `-`
-/// is standard input. It may have any of the columns of [`COLUMNS`], in any order, if x, y and z are
-/// among them; other columns are passed over.
+/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record;
+/// `-` is standard input. It may have any of the columns of [`COLUMNS`], in any order, if x, y and
+/// z are among them; other columns are passed over.
 ///
 /// # Errors
 /// When the file cannot be read or is not a list.
@@ -193,7 +193,8 @@ pub(super) fn open(path: &Path, most: u64) -> Result<Input<'_>, ListError> {
     Ok(Input::Text(lines, start))
 }
 
-/// Refuses a pipe with a name, whose other end may never come; a shell's own are in `/dev` or `/proc`.
+/// Refuses a pipe with a name, whose other end may never come; a shell's own are in `/dev` or
+/// `/proc`.
 ///
 /// # Errors
 /// When `path` is such a pipe.

@@ -25,8 +25,8 @@ pub const ABSENT: PhotonRecord = PhotonRecord {
     surface: u16::MAX,
 };
 
-/// Sets column `column` of [`COLUMNS`](photon_mapping::photon_list::COLUMNS), given as text or as any
-/// number; `None` when the value does not fit the column.
+/// Sets column `column` of [`COLUMNS`](photon_mapping::photon_list::COLUMNS), given as text or as
+/// any number; `None` when the value does not fit the column.
 fn set(record: &mut PhotonRecord, column: usize, value: Value<'_>) -> Option<()> {
     match column {
         0..=2 => record.position[column] = value.float()?,
@@ -154,7 +154,8 @@ impl Columns {
         self.intensity && self.to_light && self.photon && self.bounce && self.surface
     }
 
-    /// What a file has whose columns are at `places` of [`COLUMNS`](photon_mapping::photon_list::COLUMNS).
+    /// What a file has whose columns are at `places` of
+    /// [`COLUMNS`](photon_mapping::photon_list::COLUMNS).
     pub(super) fn at(places: &[Option<usize>]) -> Self {
         let has = |place: usize| places.contains(&Some(place));
         Self {

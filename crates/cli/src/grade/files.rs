@@ -6,8 +6,8 @@ use std::path::Path;
 /// The longest name of a file without number and extension, in bytes, of which systems take 255.
 const LONGEST_NAME: usize = 100;
 
-/// For each submission of `names` the name of its file: its own, without what systems do not take or what leads
-/// elsewhere, and with `extension`.
+/// For each submission of `names` the name of its file: its own, without what systems do not take
+/// or what leads elsewhere, and with `extension`.
 pub fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<String> {
     // Also for systems that do not tell capitals apart.
     let mut seen = HashSet::from(["index".to_owned()]);

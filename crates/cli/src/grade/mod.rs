@@ -1,53 +1,44 @@
 //! `photon-mapping grade`: a verdict on submissions, and the reasons for it.
 
+mod class;
 mod files;
 mod policy;
+mod standard_input;
 
-use std::io::{self, IsTerminal, Read as _};
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
-use serde::Serialize;
 
-use super::error::{CliError, escaped, print_whole};
-use super::gradebook::{self, GradebookArgs};
-use super::output::{self, protect, write};
+use super::error::{CliError, escaped};
+use super::gradebook::GradebookArgs;
+use super::output::{self, protect};
 use super::values;
+use class::Class;
+pub use class::json;
 pub use files::file_names;
-use grading::class::grade_one;
-use grading::gradescope;
-use grading::intake::contents::same_contents;
-use grading::intake::{Collected, Folders, HandedIn, collect};
+use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
-use grading::page::{Pages, index::index};
+use grading::page::Pages;
 use grading::places::Places;
 use grading::signature::{Effort, Signatures};
-use grading::submission::{Graded, MOST_RECORDS, Settings, Submission, grade_at_most, remark};
-use grading::text;
-use grading::twins::{Fingerprint, twins};
-use grading::verdict::{Grade, SAME_FILES};
+use grading::submission::Settings;
 use photon_mapping::assignment8;
 pub use policy::read as policy;
+use standard_input::{STANDARD_INPUT, StandardInput};
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
 const MANY_BOUNCES: i32 = 20;
-/// Longer lists are judged one at a time: memory is then that of one, however many there are.
-const MANY_RECORDS: usize = 300_000;
-/// More is not read from standard input.
-const MOST_BYTES: u64 = 1 << 30;
-/// How standard input is called.
-const STANDARD_INPUT: &str = "-";
 
 /// The options of `grade`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Submissions: a file is one, and so is a folder, in which the list and the picture are found by what \
-they contain; alice.csv and alice.png are one. A folder without a list or a picture of its own, but with \
-several in the folders of at least two students, is a class: each folder in it is a submission. Say \
---class or --submission where a folder could be both. What is wrong with a file is in its grade, and \
-stops no other.
+Submissions: a file is one, and so is a folder, in which the list and the picture are found by \
+what they contain; alice.csv and alice.png are one. A folder without a list or a picture of its \
+own, but with several in the folders of at least two students, is a class: each folder in it is a \
+submission. Say --class or --submission where a folder could be both. What is wrong with a file is \
+in its grade, and stops no other.
 
 Of several lists or pictures in one folder, that called photons or assignment8 is judged, or any if all \
 are the same, and what is left out is remarked; else they are not judged.
@@ -59,7 +50,8 @@ Several submissions: text and JSON go to one output; gradescope and html write a
 the folder --out, html also an index.html.
 
 Policy: a JSON object that gives scores, each of which may be left out, by default
-  { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \"unreadable\": 0, \"misreadings\": {} }
+  { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \
+\"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
 'undecided' is for lists with too few photons to tell: look at them yourself. 'plausible' is for \
 incorrect photons that are finite, on surfaces and indirect only. 'misreadings' gives incorrect ones \
 with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' \
@@ -76,8 +68,8 @@ pub struct GradeArgs {
     /// A folder is one submission, whatever is in it
     #[arg(long)]
     submission: bool,
-    /// How many photons the submissions emitted, if their lists have no intensity column that says it
-    /// [default: from the intensities]
+    /// How many photons the submissions emitted, if their lists have no intensity column that says
+    /// it [default: from the intensities]
     #[arg(long, value_name = "N", allow_negative_numbers = true,
           value_parser = values::whole(1, u64::from(u32::MAX)))]
     emitted: Option<u64>,
@@ -95,8 +87,8 @@ pub struct GradeArgs {
     /// A JSON file with a course's own scores, see below
     #[arg(long, value_name = "FILE.json")]
     policy: Option<PathBuf>,
-    /// Where to write the grades: a file for text, JSON, CSV or one submission; a folder for pages or
-    /// results.json of several submissions [default: standard output]
+    /// Where to write the grades: a file for text, JSON, CSV or one submission; a folder for pages
+    /// or results.json of several submissions [default: standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -132,8 +124,8 @@ impl FormatName {
 /// Grades, and prints the grades.
 ///
 /// # Errors
-/// When the policy cannot be read or an output cannot be written; what is wrong with a submission is in
-/// its grade.
+/// When the policy cannot be read or an output cannot be written; what is wrong with a submission
+/// is in its grade.
 pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     let policy = policy(arguments.policy.as_deref())?;
     let settings = Settings { emitted: arguments.emitted, seed: arguments.seed, policy };
@@ -188,212 +180,10 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     }
 }
 
-/// All that is graded in one run.
-struct Class<'a> {
-    format: FormatName,
-    settings: &'a Settings,
-    expectations: &'a Expectations,
-    pages: Pages<'a>,
-    /// Whose submissions they are.
-    students: gradebook::Class,
-    /// Where each submission has a file of its own.
-    folder: Option<PathBuf>,
-    /// The names of these files.
-    files: Vec<String>,
-    bar: ProgressBar,
-}
-
-/// What is kept of a grade when its file is written.
-struct Kept {
-    grade: Grade,
-    /// The only file's contents, where they go elsewhere.
-    output: String,
-    fingerprint: Option<Fingerprint>,
-    /// What went wrong that is not the student's fault.
-    problem: Option<String>,
-}
-
-impl Class<'_> {
-    /// The grades of `handed_in`, whose files are written as soon as each is graded. Nothing that happens
-    /// to one submission costs another its grade.
-    fn grade(&self, handed_in: &[HandedIn]) -> Vec<Kept> {
-        let all = 0..handed_in.len();
-        let one = |at: usize, most: usize| self.grade_one(at, &handed_in[at], most);
-        let small: Vec<Option<Kept>> =
-            all.into_par_iter().map(|at| one(at, MANY_RECORDS)).collect();
-        let large = |(at, kept): (usize, Option<Kept>)| {
-            kept.unwrap_or_else(|| one(at, MOST_RECORDS).expect("the limit is the largest"))
-        };
-        let mut graded: Vec<Kept> = small.into_iter().enumerate().map(large).collect();
-        if self.students.is_anonymous() {
-            return graded;
-        }
-        let prints: Vec<_> = graded.iter().map(|one| one.fingerprint.as_ref()).collect();
-        for (at, mut others) in twins(&prints).into_iter().enumerate() {
-            others.retain(|other| !is_named_twice(&handed_in[at], &handed_in[*other]));
-            let list = |at: usize| handed_in[at].submission.list.clone();
-            let is_copy = |other: &usize| match (list(at), list(*other)) {
-                (Some(one), Some(other)) => same_contents(&[one, other]),
-                _ => false,
-            };
-            let (copies, others): (Vec<usize>, Vec<usize>) = others.into_iter().partition(is_copy);
-            let notes: Vec<String> = [
-                twin_note("the photon list is the same, byte by byte, as that", &copies, &graded),
-                twin_note("the photons are the same as those", &others, &graded),
-            ]
-            .into_iter()
-            .flatten()
-            .collect();
-            if !notes.is_empty() {
-                let kept = &mut graded[at];
-                let note =
-                    |note: &String| remark(SAME_FILES, "photons of the student's own", note, "");
-                kept.grade.findings.extend(notes.iter().map(note));
-                self.write_results(at, kept);
-            }
-        }
-        graded
-    }
-
-    /// The grade of submission `at`; none if its list has more than `most` records.
-    fn grade_one(&self, at: usize, handed_in: &HandedIn, most: usize) -> Option<Kept> {
-        let Graded { grade, fingerprint, try_again, list } =
-            grade_one(handed_in, self.settings, |submission| {
-                grade_at_most(submission, self.settings, self.expectations, most)
-            })?;
-        let problem =
-            try_again.then(|| format!("{}: could not be read: try again", grade.submission));
-        let graded = Graded { grade, list, fingerprint, try_again };
-        let page = match self.format {
-            FormatName::Html => self.pages.page(&handed_in.submission, &graded),
-            _ => String::new(),
-        };
-        let Graded { grade, fingerprint, .. } = graded;
-        let mut kept = Kept { grade, output: page, fingerprint, problem };
-        if self.format == FormatName::Html
-            && let Some(folder) = &self.folder
-        {
-            let written = write(&folder.join(&self.files[at]), &std::mem::take(&mut kept.output));
-            kept.failed(written);
-        }
-        self.write_results(at, &mut kept);
-        self.bar.inc(1);
-        Some(kept)
-    }
-
-    /// Writes what Gradescope reads, if that is wanted.
-    fn write_results(&self, at: usize, kept: &mut Kept) {
-        if self.format != FormatName::Gradescope {
-            return;
-        }
-        let results = json(&gradescope::results(&kept.grade, &self.settings.policy));
-        match &self.folder {
-            Some(folder) => kept.failed(write(&folder.join(&self.files[at]), &results)),
-            None => kept.output = results,
-        }
-    }
-
-    /// Writes what all `graded` have in common.
-    fn write(&self, graded: &[Kept], is_alone: bool, out: Option<&Path>) -> Result<(), CliError> {
-        let best = self.settings.policy.best();
-        let grades: Vec<&Grade> = graded.iter().map(|one| &one.grade).collect();
-        let output = match (self.format, grades.as_slice()) {
-            (FormatName::Text, grades) => {
-                let texts: Vec<_> = grades.iter().map(|grade| text::text(grade, best)).collect();
-                texts.join("\n") + &self.students.text(grades)
-            }
-            (FormatName::Csv, grades) => self.students.csv(grades, self.settings.policy.unreadable),
-            (FormatName::Json, [grade]) if is_alone => json(grade),
-            (FormatName::Json, grades) => json(&grades),
-            (FormatName::Gradescope | FormatName::Html, _) => {
-                graded.first().map(|one| one.output.clone()).unwrap_or_default()
-            }
-        };
-        match (&self.folder, out) {
-            (Some(folder), _) if self.format == FormatName::Html => {
-                let pages: Vec<_> = grades.into_iter().zip(self.files.iter().cloned()).collect();
-                write(&folder.join("index.html"), &index(&pages, best))
-            }
-            (Some(_), _) => Ok(()),
-            (None, Some(path)) => write(path, &output),
-            (None, None) => print_whole(&output),
-        }
-    }
-}
-
-impl Kept {
-    fn failed(&mut self, written: Result<(), CliError>) {
-        if let Err(error) = written {
-            self.problem = Some(error.to_string());
-        }
-    }
-}
-
-/// Whether both are the same file, named twice: a link to another's file is no such name.
-fn is_named_twice(one: &HandedIn, other: &HandedIn) -> bool {
-    let path = |handed_in: &HandedIn| {
-        let path = handed_in.submission.list.clone()?;
-        (!path.is_symlink()).then(|| std::fs::canonicalize(path).ok())?
-    };
-    path(one).is_some() && path(one) == path(other)
-}
-
-fn twin_note(what: &str, others: &[usize], graded: &[Kept]) -> Option<String> {
-    const MOST_NAMED: usize = 5;
-    let names = others.iter().take(MOST_NAMED).map(|at| graded[*at].grade.submission.clone());
-    let names = names.collect::<Vec<_>>().join(", ");
-    (!others.is_empty()).then(|| {
-        format!(
-            "{what} of {names}; two right programs with the same random numbers may write the same"
-        )
-    })
-}
-
-/// Standard input as a file, if `-` is named.
-struct StandardInput(Option<tempfile::TempDir>);
-
-impl StandardInput {
-    fn read(paths: &[PathBuf]) -> Result<Self, CliError> {
-        let path = Path::new(STANDARD_INPUT);
-        if !paths.iter().any(|named| named == path) {
-            return Ok(Self(None));
-        }
-        let unreadable = |error| CliError::unreadable(path, error);
-        let folder = tempfile::tempdir().map_err(unreadable)?;
-        let mut file =
-            std::fs::File::create(folder.path().join(STANDARD_INPUT)).map_err(unreadable)?;
-        io::copy(&mut io::stdin().lock().take(MOST_BYTES + 1), &mut file).map_err(unreadable)?;
-        Ok(Self(Some(folder)))
-    }
-
-    fn file(&self) -> Option<PathBuf> {
-        Some(self.0.as_ref()?.path().join(STANDARD_INPUT))
-    }
-
-    fn in_place_of_name(&self, paths: &[PathBuf]) -> Vec<PathBuf> {
-        let file = |path: &PathBuf| self.file().filter(|_| path == Path::new(STANDARD_INPUT));
-        paths.iter().map(|path| file(path).unwrap_or_else(|| path.clone())).collect()
-    }
-
-    fn name(&self, handed_in: &mut [HandedIn]) {
-        let Some(file) = self.file() else { return };
-        for one in handed_in.iter_mut() {
-            let Submission { name, list, picture } = &mut one.submission;
-            if list.as_ref() == Some(&file) || picture.as_ref() == Some(&file) {
-                *name = STANDARD_INPUT.to_owned();
-            }
-        }
-    }
-}
-
 /// Whether there is nothing at all at `path`: a link that leads nowhere is something.
 fn is_missing(path: &Path) -> bool {
     path != Path::new(STANDARD_INPUT)
         && path.symlink_metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
-}
-
-pub fn json(value: &impl Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("a grade has only plain values") + "\n"
 }
 
 /// The folder for a file of each of `count` submissions, if there are to be such.

@@ -1,5 +1,5 @@
-//! The one place that writes files. A plain file appears whole or not at all: it is written beside its
-//! place, then renamed. Devices, pipes and what a shell has opened are written to at the end.
+//! The one place that writes files. A plain file appears whole or not at all: it is written beside
+//! its place, then renamed. Devices, pipes and what a shell has opened are written to at the end.
 
 mod interrupt;
 mod unfinished;

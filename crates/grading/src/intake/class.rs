@@ -104,9 +104,9 @@ fn is_called_packed(path: &Path) -> bool {
     has_extension(path, &["zip", "gz", "tgz", "xz", "7z", "rar", "bz2", "zst", "tar"])
 }
 
-/// Whether `folder` is a class: it has no list or picture itself, but at least two folders that are not
-/// called like parts of a submission have, together more than one submission can. `Err` names both
-/// readings where it could be either.
+/// Whether `folder` is a class: it has no list or picture itself, but at least two folders that are
+/// not called like parts of a submission have, together more than one submission can. `Err` names
+/// both readings where it could be either.
 pub fn is_class(folder: &Path) -> Result<bool, String> {
     let Children { folders, lists, pictures, .. } = Children::of(folder);
     let has_own = !lists.is_empty() || !pictures.is_empty();

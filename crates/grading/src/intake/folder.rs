@@ -43,8 +43,8 @@ pub struct Found {
 pub type Choice = (Option<PathBuf>, Option<PathBuf>);
 
 impl Found {
-    /// What is in `folder`, the highest levels first, and of each level what is called like a list or
-    /// a picture.
+    /// What is in `folder`, the highest levels first, and of each level what is called like a list
+    /// or a picture.
     pub fn search(folder: &Path) -> io::Result<Self> {
         let mut found = Self::default();
         let root = fs::canonicalize(folder)?;
@@ -82,8 +82,8 @@ impl Found {
         }
         if is_cut || !level.is_empty() {
             found.notes.push(format!(
-                "there are more than {MOST_ENTRIES} files or {MOST_LEVELS} levels in it, and the rest \
-                 was not searched"
+                "there are more than {MOST_ENTRIES} files or {MOST_LEVELS} levels in it, and the \
+                 rest was not searched"
             ));
         }
         Ok(found)
@@ -146,7 +146,8 @@ impl Found {
         } else if !self.unlikely.is_empty() {
             let names = names_of(&self.unlikely, folder);
             notes.push(format!(
-                "left out: {names}: of too few rows, far from the scene, or a mesh, so no photon list"
+                "left out: {names}: of too few rows, far from the scene, or a mesh, so no photon \
+                 list"
             ));
         }
         if self.lists.is_empty() && self.would_be_lists.len() == 1 {
@@ -174,8 +175,8 @@ impl Found {
     }
 }
 
-/// The names in `folder`, those that a submission has first. What systems leave has names with a dot:
-/// .DS_Store, ._photons.csv, .git.
+/// The names in `folder`, those that a submission has first. What systems leave has names with a
+/// dot: .DS_Store, ._photons.csv, .git.
 fn names(folder: &Path) -> io::Result<Vec<OsString>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)?.take(MOST_NAMES) {
@@ -208,9 +209,9 @@ pub fn has_extension(path: &Path, extensions: &[&str]) -> bool {
     extensions.iter().any(|known| extension == *known)
 }
 
-/// The one of several `files` that is meant: the one called as usual, the highest if there are more; else
-/// any, if they are all the same; else the only one that `is_likely`. What is left out is noted, with
-/// `left_out`.
+/// The one of several `files` that is meant: the one called as usual, the highest if there are
+/// more; else any, if they are all the same; else the only one that `is_likely`. What is left out
+/// is noted, with `left_out`.
 fn choice(
     what: &str,
     mut files: Vec<PathBuf>,
@@ -237,8 +238,8 @@ fn choice(
     let Some(chosen) = chosen else {
         let (names, all) = (names_of(&files, folder), files.len());
         return Err(format!(
-            "there are {all} {what} in it ({names}), of which one is expected, or one of them called \
-             photons or assignment8"
+            "there are {all} {what} in it ({names}), of which one is expected, or one of them \
+             called photons or assignment8"
         ));
     };
     let chosen = files.remove(chosen);

@@ -54,8 +54,8 @@ pub struct Collected {
     pub notes: Vec<String>,
 }
 
-/// The submissions named by `paths`: a file is one, a list and a picture that differ in the extension alone
-/// are one, and a folder is one or a class, as `folders` says.
+/// The submissions named by `paths`: a file is one, a list and a picture that differ in the
+/// extension alone are one, and a folder is one or a class, as `folders` says.
 pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     let mut collected = Collected::default();
     let mut all = Vec::new();
@@ -194,8 +194,8 @@ fn tell_twins(all: &mut [HandedIn]) {
             let names: Vec<_> = names.map(|other| all[*other].submission.name.clone()).collect();
             if !names.is_empty() {
                 all[*at].twins.push(format!(
-                    "the picture is the same, byte by byte, as that of {}; two right programs with the \
-                     same random numbers may write the same",
+                    "the picture is the same, byte by byte, as that of {}; two right programs with \
+                     the same random numbers may write the same",
                     names.join(", ")
                 ));
             }

@@ -15,7 +15,7 @@ use image::RgbImage;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::judge_list::{Expectations, Judgement};
-use super::policy::Policy;
+use super::policy::{Policy, SectionPoints, points};
 use super::submission::{Graded, Submission};
 use super::text::{chance, verdict_in_words};
 use super::verdict::{Finding, Grade, Verdict, Weight};
@@ -116,8 +116,14 @@ impl<'a> Pages<'a> {
     }
 
     fn rubric(&self, grade: &Grade) -> Markup {
-        let Policy { correct, undecided, plausible, incorrect, no_dots, unreadable, misreadings } =
+        let findings = 0..grade.findings.len();
+        let sections: Vec<_> = findings.filter_map(|at| points(grade, at, self.policy)).collect();
+        if !sections.is_empty() && sections.iter().any(|section| section.score < section.most) {
+            return rubric_of_sections(&sections);
+        }
+        let Policy { correct, undecided, plausible, incorrect, no_dots, unreadable, .. } =
             self.policy;
+        let misreadings = &self.policy.misreadings;
         let own = grade.misreading.and_then(|id| Some((id, *misreadings.get(id)?)));
         let mut rows = vec![
             (*correct, "dots as the handout's photons leave them".to_owned(), Verdict::Correct),
@@ -390,4 +396,15 @@ fn document(title: &str, policy: &str, body: &Markup) -> String {
         }
     }
     .into_string()
+}
+
+fn rubric_of_sections(sections: &[SectionPoints]) -> Markup {
+    html! {
+        table.rubric {
+            caption { "Points by section" }
+            @for section in sections {
+                tr { td { (section.score) " of " (section.most) } td { (section.title) } }
+            }
+        }
+    }
 }

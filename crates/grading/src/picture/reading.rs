@@ -10,10 +10,11 @@ use image::{DynamicImage, ImageDecoder, Limits, RgbImage};
 use crate::intake::kinds::{Kind, PNG, START, kind};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
-/// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB. It
-/// bounds what a decoder has to unpack, too.
+/// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB.
+/// It bounds what a decoder has to unpack, too.
 const MOST_BYTES: u64 = 4 << 20;
-/// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the longest format.
+/// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the
+/// longest format.
 const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
 /// The chunks of a PNG file that make its pixels, and the bytes of a chunk besides its contents.
 const PIXEL_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
@@ -71,8 +72,8 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     if chunks(bytes).any(|chunk| chunk.get(4..8) == Some(b"acTL")) {
         return Err(format!("it is animated: {WANTED}"));
     }
-    let bytes = &pixels_alone(bytes);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
+    let pixels = pixels_alone(bytes);
+    let decoder = PngDecoder::with_limits(Cursor::new(&pixels), limits).map_err(broken)?;
     if !decoder.color_type().has_color() {
         return Err(format!("it is grey, and dots are red: {WANTED}"));
     }
@@ -94,8 +95,8 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     Ok(rgb)
 }
 
-/// The PNG file `bytes` without what does not change its pixels: colour profiles and texts may unpack
-/// to far more than they are.
+/// The PNG file `bytes` without what does not change its pixels: colour profiles and texts may
+/// unpack to far more than they are.
 fn pixels_alone(bytes: &[u8]) -> Vec<u8> {
     let kept = chunks(bytes).filter(|chunk| {
         let kind = chunk.get(4..8).unwrap_or_default();

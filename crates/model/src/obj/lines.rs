@@ -41,8 +41,8 @@ impl Line {
     }
 }
 
-/// The lines of `text` that are neither empty nor a comment. `starts` tells which words start a line
-/// of this format.
+/// The lines of `text` that are neither empty nor a comment. `starts` tells which words start a
+/// line of this format.
 pub fn lines(text: &str, starts: impl Fn(&str) -> bool) -> impl Iterator<Item = Line> {
     let text = text.trim_start_matches('\u{feff}');
     let mut rows = rows(text).enumerate().peekable();
@@ -75,8 +75,8 @@ fn rows(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// `row` with the rows after it that a `\` at the end joins to it. A name may end in a `\` too: then
-/// a keyword follows, which starts a line of its own.
+/// `row` with the rows after it that a `\` at the end joins to it. A name may end in a `\` too:
+/// then a keyword follows, which starts a line of its own.
 fn continued<'a>(
     row: &str,
     rows: &mut Peekable<impl Iterator<Item = (usize, &'a str)>>,
@@ -109,7 +109,8 @@ impl Place {
     }
 }
 
-/// The first three of `words`, numbers within `range` but for `rounding`; `Err` says what was found.
+/// The first three of `words`, numbers within `range` but for `rounding`; `Err` says what was
+/// found.
 pub fn numbers<'a>(
     words: &mut impl Iterator<Item = &'a str>,
     keyword: &str,

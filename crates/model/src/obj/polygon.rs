@@ -83,8 +83,8 @@ fn is_convex(corners: &[DVec2]) -> bool {
     halves == 2
 }
 
-/// Whether two edges cross, or are the same one in the same direction. They may touch and run back along
-/// each other, as where a hole is cut out.
+/// Whether two edges cross, or are the same one in the same direction. They may touch and run back
+/// along each other, as where a hole is cut out.
 fn crosses_itself(corners: &[DVec2]) -> bool {
     let next = |at: usize| corners[(at + 1) % corners.len()];
     let edges: Vec<[DVec2; 2]> = (0..corners.len()).map(|at| [corners[at], next(at)]).collect();

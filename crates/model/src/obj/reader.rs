@@ -164,7 +164,8 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library>
         Ok(())
     }
 
-    /// The position of a corner such as `7`, `7/1`, `7//3` or `-1/2/3`, and its normal if it has one.
+    /// The position of a corner such as `7`, `7/1`, `7//3` or `-1/2/3`, and its normal if it has
+    /// one.
     fn corner(&self, corner: &str) -> Result<(DVec3, Option<Vec3>), Flaw> {
         let mut indices = corner.splitn(3, '/');
         let vertex = indices.next().unwrap_or_default();

@@ -1,0 +1,196 @@
+//! The grades of a class, and the files with them.
+
+use std::path::{Path, PathBuf};
+
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::FormatName;
+use crate::error::{CliError, print_whole};
+use crate::gradebook;
+use crate::output::write;
+use grading::class::grade_one;
+use grading::gradescope;
+use grading::intake::HandedIn;
+use grading::intake::contents::same_contents;
+use grading::judge_list::Expectations;
+use grading::page::{Pages, index::index};
+use grading::submission::{Graded, MOST_RECORDS, Settings, grade_at_most, remark};
+use grading::text;
+use grading::twins::{Fingerprint, twins};
+use grading::verdict::{Grade, SAME_FILES};
+
+/// Longer lists are judged one at a time: memory is then that of one, however many there are.
+const MANY_RECORDS: usize = 300_000;
+
+/// All that is graded in one run.
+pub struct Class<'a> {
+    pub format: FormatName,
+    pub settings: &'a Settings,
+    pub expectations: &'a Expectations,
+    pub pages: Pages<'a>,
+    /// Whose submissions they are.
+    pub students: gradebook::Class,
+    /// Where each submission has a file of its own.
+    pub folder: Option<PathBuf>,
+    /// The names of these files.
+    pub files: Vec<String>,
+    pub bar: ProgressBar,
+}
+
+/// What is kept of a grade when its file is written.
+pub struct Kept {
+    grade: Grade,
+    /// The only file's contents, where they go elsewhere.
+    output: String,
+    fingerprint: Option<Fingerprint>,
+    /// What went wrong that is not the student's fault.
+    pub problem: Option<String>,
+}
+
+impl Class<'_> {
+    /// The grades of `handed_in`, whose files are written as soon as each is graded. Nothing that
+    /// happens to one submission costs another its grade.
+    pub fn grade(&self, handed_in: &[HandedIn]) -> Vec<Kept> {
+        let all = 0..handed_in.len();
+        let one = |at: usize, most: usize| self.grade_one(at, &handed_in[at], most);
+        let small: Vec<Option<Kept>> =
+            all.into_par_iter().map(|at| one(at, MANY_RECORDS)).collect();
+        let large = |(at, kept): (usize, Option<Kept>)| {
+            kept.unwrap_or_else(|| one(at, MOST_RECORDS).expect("the limit is the largest"))
+        };
+        let mut graded: Vec<Kept> = small.into_iter().enumerate().map(large).collect();
+        if self.students.is_anonymous() {
+            return graded;
+        }
+        let prints: Vec<_> = graded.iter().map(|one| one.fingerprint.as_ref()).collect();
+        for (at, mut others) in twins(&prints).into_iter().enumerate() {
+            others.retain(|other| !is_named_twice(&handed_in[at], &handed_in[*other]));
+            let list = |at: usize| handed_in[at].submission.list.clone();
+            let is_copy = |other: &usize| match (list(at), list(*other)) {
+                (Some(one), Some(other)) => same_contents(&[one, other]),
+                _ => false,
+            };
+            let (copies, others): (Vec<usize>, Vec<usize>) = others.into_iter().partition(is_copy);
+            let notes: Vec<String> = [
+                twin_note("the photon list is the same, byte by byte, as that", &copies, &graded),
+                twin_note("the photons are the same as those", &others, &graded),
+            ]
+            .into_iter()
+            .flatten()
+            .collect();
+            if !notes.is_empty() {
+                let kept = &mut graded[at];
+                let note =
+                    |note: &String| remark(SAME_FILES, "photons of the student's own", note, "");
+                kept.grade.findings.extend(notes.iter().map(note));
+                self.write_results(at, kept);
+            }
+        }
+        graded
+    }
+
+    /// The grade of submission `at`; none if its list has more than `most` records.
+    fn grade_one(&self, at: usize, handed_in: &HandedIn, most: usize) -> Option<Kept> {
+        let Graded { grade, fingerprint, try_again, list } =
+            grade_one(handed_in, self.settings, |submission| {
+                grade_at_most(submission, self.settings, self.expectations, most)
+            })?;
+        let problem =
+            try_again.then(|| format!("{}: could not be read: try again", grade.submission));
+        let graded = Graded { grade, list, fingerprint, try_again };
+        let page = match self.format {
+            FormatName::Html => self.pages.page(&handed_in.submission, &graded),
+            _ => String::new(),
+        };
+        let Graded { grade, fingerprint, .. } = graded;
+        let mut kept = Kept { grade, output: page, fingerprint, problem };
+        if self.format == FormatName::Html
+            && let Some(folder) = &self.folder
+        {
+            let written = write(&folder.join(&self.files[at]), &std::mem::take(&mut kept.output));
+            kept.failed(written);
+        }
+        self.write_results(at, &mut kept);
+        self.bar.inc(1);
+        Some(kept)
+    }
+
+    /// Writes what Gradescope reads, if that is wanted.
+    fn write_results(&self, at: usize, kept: &mut Kept) {
+        if self.format != FormatName::Gradescope {
+            return;
+        }
+        let results = json(&gradescope::results(&kept.grade, &self.settings.policy));
+        match &self.folder {
+            Some(folder) => kept.failed(write(&folder.join(&self.files[at]), &results)),
+            None => kept.output = results,
+        }
+    }
+
+    /// Writes what all `graded` have in common.
+    pub fn write(
+        &self,
+        graded: &[Kept],
+        is_alone: bool,
+        out: Option<&Path>,
+    ) -> Result<(), CliError> {
+        let best = self.settings.policy.best();
+        let grades: Vec<&Grade> = graded.iter().map(|one| &one.grade).collect();
+        let output = match (self.format, grades.as_slice()) {
+            (FormatName::Text, grades) => {
+                let texts: Vec<_> = grades.iter().map(|grade| text::text(grade, best)).collect();
+                texts.join("\n") + &self.students.text(grades)
+            }
+            (FormatName::Csv, grades) => self.students.csv(grades, self.settings.policy.unreadable),
+            (FormatName::Json, [grade]) if is_alone => json(grade),
+            (FormatName::Json, grades) => json(&grades),
+            (FormatName::Gradescope | FormatName::Html, _) => {
+                graded.first().map(|one| one.output.clone()).unwrap_or_default()
+            }
+        };
+        match (&self.folder, out) {
+            (Some(folder), _) if self.format == FormatName::Html => {
+                let pages: Vec<_> = grades.into_iter().zip(self.files.iter().cloned()).collect();
+                write(&folder.join("index.html"), &index(&pages, best))
+            }
+            (Some(_), _) => Ok(()),
+            (None, Some(path)) => write(path, &output),
+            (None, None) => print_whole(&output),
+        }
+    }
+}
+
+impl Kept {
+    fn failed(&mut self, written: Result<(), CliError>) {
+        if let Err(error) = written {
+            self.problem = Some(error.to_string());
+        }
+    }
+}
+
+/// Whether both are the same file, named twice: a link to another's file is no such name.
+fn is_named_twice(one: &HandedIn, other: &HandedIn) -> bool {
+    let path = |handed_in: &HandedIn| {
+        let path = handed_in.submission.list.clone()?;
+        (!path.is_symlink()).then(|| std::fs::canonicalize(path).ok())?
+    };
+    path(one).is_some() && path(one) == path(other)
+}
+
+fn twin_note(what: &str, others: &[usize], graded: &[Kept]) -> Option<String> {
+    const MOST_NAMED: usize = 5;
+    let names = others.iter().take(MOST_NAMED).map(|at| graded[*at].grade.submission.clone());
+    let names = names.collect::<Vec<_>>().join(", ");
+    (!others.is_empty()).then(|| {
+        format!(
+            "{what} of {names}; two right programs with the same random numbers may write the same"
+        )
+    })
+}
+
+/// `value` as JSON.
+pub fn json(value: &impl Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("a grade has only plain values") + "\n"
+}
