@@ -12,7 +12,7 @@ use variants::hypotheses::{
     BOUNCE_OFF_BY_ONE, FAIR, Hypothesis, no_offset, repeated_paths, stored_twice,
 };
 use variants::pairs::{OTHER_ROULETTE, PAIR};
-use variants::variation::{FACETS, Storage};
+use variants::variation::{FACETS, Start, Storage};
 
 /// A misreading that would show what is seen, or something stranger, less often than this explains nothing.
 const LEAST_LIKELY: f64 = 3e-3;
@@ -117,8 +117,9 @@ pub fn explain(
             || variation.storage != Storage::Indirect
             || variation.most_bounces.is_some()
             || variation.fewer_bounces > 0;
-        // Directions below the surface lead back to it, but not to the very same place.
-        let may_repeat = is_below && !observation.repeats_by_rounding;
+        // Directions below the surface lead back to it, but not to the very same place; one start for all does.
+        let may_repeat =
+            is_below && (!observation.repeats_by_rounding || variation.start != Start::Hit);
         of_nan == 0.0 && (may_repeat || repeated < MANY_REPEATED) && is_straight && is_long
     };
     let comparison = Comparison::new(observation, emitted, places, signatures);

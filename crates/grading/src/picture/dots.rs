@@ -225,7 +225,7 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
         })
         .collect();
     let known: Vec<u8> = curve.iter().flatten().copied().collect();
-    let rises = known.windows(2).all(|pair| pair[0] <= pair[1] + ROUNDING);
+    let rises = known.windows(2).all(|pair| pair[0] <= pair[1].saturating_add(ROUNDING));
     let (first, last) = (*known.first()?, *known.last()?);
     // What is dark at first and bright at last.
     if !rises || last.saturating_sub(first) < 64 {
