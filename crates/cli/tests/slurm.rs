@@ -104,6 +104,11 @@ impl Drop for Slurm {
         for daemon in ["slurmd", "slurmctld", "munged"] {
             if let Ok(number) = fs::read_to_string(self.base.join(format!("{daemon}.pid"))) {
                 let _ = Command::new("kill").arg(number.trim()).status();
+                // Until it has ended, it writes into the folder that is to go.
+                let process = Path::new("/proc").join(number.trim());
+                for _ in (0..100).take_while(|_| process.exists()) {
+                    std::thread::sleep(Duration::from_millis(100));
+                }
             }
         }
     }
