@@ -38,13 +38,9 @@ pub fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let (triangles, _) = indices.as_chunks::<3>();
     let of_flat = |[a, b, c]: &[usize; 3]| (flat[*b] - flat[*a]).perp_dot(flat[*c] - flat[*a]);
     let whole: f64 = fan.iter().map(of_flat).sum();
-    let filled: f64 = triangles.iter().map(|triangle| of_flat(triangle).abs()).sum();
-    let turned = |triangle: &[usize; 3]| {
-        let [a, b, c] = *triangle;
-        if of_flat(triangle) < 0.0 { [a, c, b] } else { [a, b, c] }
-    };
+    let filled: f64 = triangles.iter().map(of_flat).sum();
     let is_filled = (filled - whole).abs() <= SAME_AREA * whole;
-    is_filled.then(|| triangles.iter().map(turned).collect())
+    is_filled.then(|| triangles.to_vec())
 }
 
 /// `corners` seen from the side to which `normal` points, along the axis it is closest to.
