@@ -1,0 +1,54 @@
+//! Solutions in the styles of twelve students, in folders as they are handed in: each section of
+//! each gets the right answer.
+
+mod support;
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use check::find::Submission;
+use check::sections::Status;
+use check::{Settings, check};
+
+/// Folder, what is in it, and for emission, storage, scattering, sampling and transformation `+`
+/// where it is right and `x` where it is wrong.
+const SOLUTIONS: [(&str, &str, &str); 12] = [
+    ("ava", "a loop in place of the recursion", "+++++"),
+    ("ben", "a header of its own, <random>, double", "+++++"),
+    ("chloe", "lambdas, a function pointer to rand, only `position` is set", "+++++"),
+    ("dev", "a helper header, a rotation in place of t and b, a resource fork", "+++++"),
+    ("emma", "the loop of the emission never ends", "x++++"),
+    ("farid", "direct photons are stored; lines end in CR LF", "+x+++"),
+    ("grace", "P_r forgets blue, which this scene does not show", "++x++"),
+    ("hugo", "z = sqrt(1 - r)", "+++x+"),
+    ("ines", "the matrix is transposed", "++++x"),
+    ("jack", "remainingBounces is handed on as it is, which this scene does not show", "+x+++"),
+    ("kim", "no rejection, and r = u1", "x++x+"),
+    ("leo", "the roulette is turned around, and t is parallel to b on upright faces", "++x+x"),
+];
+
+#[test]
+fn every_section_of_other_solutions_gets_its_answer() {
+    let Some(kit) = support::kit() else { return };
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_solutions");
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let Some((name, what, expected)) = SOLUTIONS.get(next.fetch_add(1, Ordering::Relaxed))
+        {
+            let submission = Submission::find(&folder.join(name)).expect("a submission");
+            let settings = Settings { photons: 2000, ..Settings::default() };
+            let report = check(&submission, kit, &settings).expect("it can be checked");
+            let found: String = report
+                .sections
+                .iter()
+                .map(|verdict| match verdict.status {
+                    Status::Right | Status::RightUnderAnotherReading => '+',
+                    Status::Wrong => 'x',
+                    Status::NotReached => '?',
+                })
+                .collect();
+            assert_eq!(found, *expected, "{name}: {what}: {:#?}", report.sections);
+        }
+    };
+    std::thread::scope(|scope| (0..2).for_each(|_| drop(scope.spawn(work))));
+}

@@ -1,0 +1,23 @@
+#include "common/Scene/Lights/Point/PointLight.h"
+void PointLight::ComputeSampleRays(std::vector<Ray>& output, glm::vec3 origin, glm::vec3 normal) const
+{
+    origin += normal * LARGE_EPSILON;
+    const glm::vec3 lightPosition = glm::vec3(GetPosition());
+    const glm::vec3 rayDirection = glm::normalize(lightPosition - origin);
+    output.emplace_back(origin, rayDirection, glm::distance(origin, lightPosition));
+}
+
+float PointLight::ComputeLightAttenuation(glm::vec3 origin) const
+{
+    return 1.f;
+}
+
+void PointLight::GenerateRandomPhotonRay(Ray& ray) const
+{
+    glm::vec3 direction;
+    direction.x = rand() * 2.0 / RAND_MAX - 1.0;
+    direction.y = rand() * 2.0 / RAND_MAX - 1.0;
+    direction.z = rand() * 2.0 / RAND_MAX - 1.0;
+    ray.SetRayPosition(glm::vec3(GetPosition()));
+    ray.SetRayDirection(glm::normalize(direction));
+}
