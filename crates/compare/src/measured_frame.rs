@@ -6,11 +6,13 @@ use std::f32::consts::TAU;
 use glam::{Mat3, Vec3};
 
 use crate::fair::Fair;
-use crate::fair_search::{Search, Window};
+use crate::fair_search::{LOOSE, Search, Window};
 use variants::frame::Frame;
 
 /// So many normals are told apart; a scene with more of them is not measured.
 const MOST_NORMALS: usize = 16;
+/// So many bounces away from the light, surfaces are measured.
+const ROUNDS: usize = 3;
 /// Fewer directions around a normal say nothing of its frame.
 const FEWEST: usize = 4;
 /// The height over the surface may be this far off: a ray may start elsewhere.
@@ -46,18 +48,31 @@ struct Azimuths {
 }
 
 impl Search<'_> {
+    /// The fair way with the draws of `base` and a frame that is measured in `many` windows, with the offsets
+    /// that fit `few` of them; nothing where there is none, or it explains no more than `base`.
+    pub fn best_measured(&self, base: &Fair, many: &[Window], few: &[Window]) -> Option<Fair> {
+        let measured = self.measured_frame(base, many)?;
+        let before = self.score(base, few);
+        let (fair, score) = self.fit_offsets(&measured, few);
+        (score.is_right_way() && score.tight > 2 * before.tight).then_some(fair)
+    }
+
     /// `base` with the frame that is measured in `windows`, if there is one in which nearly all photons
     /// leave their first hit at the right height and, around each normal, at one angle to the right one.
-    pub(crate) fn measured_frame(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
-        let base = &Fair { frame: Frame::REFERENCE, ..*base };
+    fn measured_frame(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
+        let mut fair = Fair { frame: Frame::REFERENCE, ..*base };
+        // What is hit only after a bounce can be measured when the frames before are known.
+        for _ in 0..ROUNDS {
+            fair = self.measure(&fair, windows)?;
+        }
+        Some(fair)
+    }
+
+    fn measure(&self, fair: &Fair, windows: &[Window]) -> Option<Fair> {
         let mut all = Vec::new();
         let mut wrong = 0;
         for window in windows.iter().filter(|window| window.is_exact) {
-            match self.azimuths(base, window) {
-                Some(Ok(azimuths)) => all.push(azimuths),
-                Some(Err(())) => wrong += 1,
-                None => {}
-            }
+            wrong += self.azimuths(fair, window, &mut all);
         }
         if all.len() < 2 * FEWEST || 10 * wrong > all.len() {
             return None;
@@ -87,25 +102,34 @@ impl Search<'_> {
             frame.mirrored[frame.count] = mirrored;
             frame.count += 1;
         }
-        (frame.count > 0).then_some(Fair { measured: Some(frame), ..*base })
+        (frame.count > 0).then_some(Fair { measured: Some(frame), ..*fair })
     }
 
-    /// The azimuths of a photon; an error where its height is wrong, nothing where it says nothing.
-    fn azimuths(&self, base: &Fair, window: &Window) -> Option<Result<Azimuths, ()>> {
-        let story = base.story(self.run, window.photon)?;
-        let hit = story.hits.first()?;
-        let (u1, u2) = (hit.u1?, hit.u2?);
-        let way = *window.positions.first()? - hit.point();
-        let normal = Vec3::from_array(hit.normal);
-        let local = base.frame.matrix(normal).inverse() * way.normalize_or_zero();
-        // Near the normal, and near the hit, an azimuth means nothing.
-        if way.length() < 0.1 * self.size || u1 < 0.1 {
-            return None;
+    /// Adds the azimuths of a photon at every hit that is still where it should be; how many of them are at a
+    /// wrong height.
+    fn azimuths(&self, fair: &Fair, window: &Window, all: &mut Vec<Azimuths>) -> usize {
+        let Some(story) = fair.story(self.run, window.photon) else { return 0 };
+        let mut wrong = 0;
+        let next = fair.stored(&story).into_iter().map(Some).chain([None]);
+        for ((hit, position), model) in story.hits.iter().zip(&window.positions).zip(next) {
+            let (Some(u1), Some(u2)) = (hit.u1, hit.u2) else { break };
+            let way = *position - hit.point();
+            let normal = Vec3::from_array(hit.normal);
+            let local = fair.frame.matrix(normal).transpose() * way.normalize_or_zero();
+            // Near the normal, and near the hit, an azimuth means nothing.
+            if way.length() > 0.1 * self.size && u1 > 0.1 {
+                if (local.z - (1.0 - u1).sqrt()).abs() > HEIGHT {
+                    wrong += 1;
+                    break;
+                }
+                let found = libm::atan2f(local.y, local.x);
+                all.push(Azimuths { normal, due: TAU * u2, found });
+            }
+            if model.is_none_or(|model| model.distance(*position) > LOOSE * self.size) {
+                break;
+            }
         }
-        if (local.z - (1.0 - u1).sqrt()).abs() > HEIGHT {
-            return Some(Err(()));
-        }
-        Some(Ok(Azimuths { normal, due: TAU * u2, found: libm::atan2f(local.y, local.x) }))
+        wrong
     }
 }
 
