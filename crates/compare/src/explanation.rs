@@ -16,7 +16,7 @@ use variants::section::Section;
 /// So many of the photons that differ are traced again under every reading.
 const SAMPLE: usize = 150;
 /// So many, where a frame is to be measured around every normal.
-const MANY: usize = 4000;
+const MANY: usize = 20_000;
 /// So many records before and after a place in a list may belong to the same photon.
 const AROUND: usize = 4;
 /// Where a smaller part of the submission's photons scatter at their first hit, the draws may come in
