@@ -199,6 +199,16 @@ public:
     }
 
     template <class Photon>
+    void store(const Photon* photon) {
+        store(*photon);
+    }
+
+    template <class Photon>
+    void store(const Photon* photon, int surface) {
+        store(*photon, surface);
+    }
+
+    template <class Photon>
     void store(const Photon& photon, int surface) {
         detail::Record record = detail::to_record(photon);
         record.photon = photon_;

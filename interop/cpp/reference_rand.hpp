@@ -27,10 +27,6 @@
 
 namespace reference_rand {
 
-// The replacement below turns rand() into int32_t(...), and reference_rand::rand() must still
-// compile after that.
-using std::int32_t;
-
 // RAND_MAX as glibc has it. As a float it rounds up to 2^31, which is what makes (float)rand() /
 // RAND_MAX exact.
 const std::int32_t rand_max = 2147483647;
@@ -61,9 +57,19 @@ inline std::uint32_t high_half(std::uint64_t number) {
 
 class Stream {
 public:
-    Stream() : seed_(0), number_(0), block_(0), used_(words_per_block), selected_(false) {}
+    Stream()
+        : seed_(0), number_(0), block_(0), used_(words_per_block), selected_(false),
+          is_warned_(false) {}
 
     void select(std::uint64_t seed, std::uint64_t number) {
+        if (selected_ && block_ == 0 && !is_warned_) {
+            // Going on silently would give a plausible picture that agrees with nothing.
+            std::fprintf(stderr,
+                         "reference_rand: photon %llu drew no number here: glm::linearRand, <random> "
+                         "and other files draw from elsewhere\n",
+                         static_cast<unsigned long long>(number_));
+            is_warned_ = true;
+        }
         seed_ = seed;
         number_ = number;
         block_ = 0;
@@ -134,6 +140,7 @@ private:
     std::uint64_t block_;
     int used_;
     bool selected_;
+    bool is_warned_;
     std::uint32_t words_[words_per_block];
 };
 
@@ -168,7 +175,15 @@ inline float uniform() { return static_cast<float>(next_word() >> 8) * (1.0f / 1
 // few of the bits. Divide, do not take remainders.
 inline int rand() { return static_cast<int>((next_word() >> 8) << 7); }
 
+// What the replacement below makes of `rand`.
+inline int reference_rand_draw() { return rand(); }
+
 } // namespace reference_rand
+
+using reference_rand::reference_rand_draw;
+namespace std {
+using ::reference_rand::reference_rand_draw;
+}
 
 #endif // REFERENCE_RAND_HPP
 
@@ -177,10 +192,10 @@ inline int rand() { return static_cast<int>((next_word() >> 8) << 7); }
 #if defined(REFERENCE_RAND_REPLACES_RAND) && !defined(REFERENCE_RAND_REPLACED_RAND)
 #define REFERENCE_RAND_REPLACED_RAND
 
-// A cast, because int32_t is a name that may follow `std::` as well as stand alone: rand() and
-// std::rand() both compile, and nothing need be added to namespace std.
+// The name alone, so that rand(), std::rand(), pointers to it, members of that name and helpers such
+// as rand(a, b) all compile.
 #undef rand
-#define rand() int32_t(::reference_rand::rand())
+#define rand reference_rand_draw
 
 // Some libraries have 32767, and the quotient must be taken by the maximum of the numbers that are
 // drawn.

@@ -50,6 +50,10 @@ pub struct CompareArgs {
     /// For lists: count as different what is the same only under another fair reading of the handout
     #[arg(long)]
     strict: bool,
+    /// For pictures: how many pixels may have or lack a dot that the other picture has not; the framework's
+    /// picture of the reference's list has up to 5 such
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    dots: u64,
     /// For pictures: where to write the difference picture
     #[arg(long, value_name = "DIFF.png")]
     out: Option<PathBuf>,
@@ -201,8 +205,8 @@ fn trace(run: &Run) -> PhotonList {
 }
 
 fn pictures(arguments: &CompareArgs, reference: &Path, submission: &Path) -> Result<u8, CliError> {
-    let (report, difference) =
-        compare_pictures(&read_picture(reference)?, &read_picture(submission)?);
+    let (reference, submission) = (read_picture(reference)?, read_picture(submission)?);
+    let (report, difference) = compare_pictures(&reference, &submission, arguments.dots);
     if let Some((path, difference)) = arguments.out.as_ref().zip(difference) {
         let mut file = OutputFile::create(path)?;
         let mut png = io::BufWriter::new(file.file());

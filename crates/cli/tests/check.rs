@@ -3,9 +3,10 @@
 
 mod support;
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use support::{fails, folder, run_line, stdout};
+use support::{fails, folder, json, run_line, stdout};
 
 fn solution() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../check/tests/submissions/one_function")
@@ -27,6 +28,43 @@ fn a_right_solution_has_the_photons_of_the_reference() {
     let line = "compare --seed 148 --photons 200000 {}";
     let compared = stdout(run_line(line, &[&list]).success());
     assert!(compared.starts_with("the same within"), "{compared}");
+}
+
+/// One bad submission stops nothing, and each gets what its format has for it.
+#[test]
+fn a_class_gets_a_page_each_and_an_index() {
+    let folder = folder();
+    let (class, pages) = (folder.path().join("class"), folder.path().join("pages"));
+    for (student, change) in [("alice", ("", "")), ("bob", ("remainingBounces - 1);", "left);"))] {
+        let home = class.join(student);
+        fs::create_dir_all(&home).expect("can be made");
+        for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+            let text = fs::read_to_string(solution().join(name)).expect("a file");
+            fs::write(home.join(name), text.replace(change.0, change.1)).expect("can be written");
+        }
+    }
+    let line = "check --class {} --quiet --format html --out {}";
+    let checked = run_line(line, &[&class, &pages]);
+    let errors = String::from_utf8_lossy(&checked.get_output().stderr).into_owned();
+    if errors.contains("no C++ compiler") || errors.contains("does not find glm") {
+        assert!(std::env::var_os("CI").is_none(), "{errors}");
+        eprintln!("skipped: {errors}");
+        return;
+    }
+    checked.success();
+    let page = |name: &str| fs::read_to_string(pages.join(name)).expect("a page");
+    assert!(page("index.html").contains("alice.html"));
+    // The pictures of the submission's photons and of the reference's.
+    assert!(page("alice.html").contains("4 of 4 points"));
+    assert!(page("alice.html").matches("data:image/png").count() >= 2);
+    assert!(page("bob.html").contains("`left` is declared in no file you handed in"));
+    let bob = class.join("bob");
+    let table = stdout(run_line("check {} --format csv", &[&bob]).success());
+    assert_eq!(table.lines().count(), 2, "{table}");
+    assert!(table.contains("\"bob\",\"unreadable\",\"0\""), "{table}");
+    let results = json(run_line("check {} --format gradescope", &[&bob]).success());
+    assert_eq!(results["score"], 0.0, "{results}");
+    fails("check {} {} --format html", &[&bob, &bob], &["--out", "expected a folder"]);
 }
 
 #[test]

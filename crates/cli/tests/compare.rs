@@ -275,6 +275,11 @@ fn pictures_are_compared_dot_by_dot() {
     assert_eq!(red, extra);
     let text = stdout(run_line("compare {} {}", &[&many, &few]).code(1));
     assert!(text.contains(&format!("missing  {extra}")), "{text}");
+    let [enough, too_few] = [extra, extra - 1].map(|count| count.to_string());
+    let line = "compare --dots {} {} {}";
+    let text = stdout(run_line(line, &[Path::new(&enough), &many, &few]).code(0));
+    assert!(text.starts_with("the same but for the few dots"), "{text}");
+    run_line(line, &[Path::new(&too_few), &many, &few]).code(1);
     let small = folder.path().join("small");
     run_line("render --quiet --size 8x6 --photons 10 --out {}", &[&small]).success();
     let text = stdout(run_line("compare {} {}", &[&few, &small.join("assignment8.png")]).code(1));

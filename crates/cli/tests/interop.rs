@@ -170,6 +170,48 @@ fn photons_of_other_types_are_written() {
     assert_eq!((numbers(0), numbers(1)), ((4_000_000_000, 1, 3), (4_000_000_000, 2, 1)));
 }
 
+/// What students write around rand().
+const OTHER_CALLS: &str = r#"
+#include <algorithm>
+#include "photon_dump.hpp"
+#define REFERENCE_RAND_REPLACES_RAND
+#include "reference_rand.hpp"
+struct Vector { float x, y, z; };
+struct Photon { Vector position, intensity, toLightRay; };
+float rand(float a, float b) { return a + (b - a) * rand() / RAND_MAX; }
+struct Sampler { float rand() { return 0.5f; } };
+int main(int, char** argv) {
+    reference_rand::begin_photon(148, 0);
+    int numbers[4];
+    std::generate(numbers, numbers + 2, std::rand);
+    int (*draw)() = &std::rand;
+    numbers[2] = draw();
+    reference_rand::begin_photon(148, 0);
+    const bool is_same = numbers[0] == rand() && numbers[1] == std::rand() &&
+                         numbers[2] == reference_rand::rand();
+    const Photon photon = {{rand(1, 2), Sampler().rand(), 0}, {1, 1, 1}, {0, 0, 1}};
+    photon_dump::PhotonDump recorder;
+    recorder.begin_photon(0);
+    recorder.store(&photon);
+    reference_rand::begin_photon(148, 1);
+    reference_rand::begin_photon(148, 2);
+    return is_same && recorder.write(argv[1]) ? 0 : 1;
+}
+"#;
+
+#[test]
+fn rand_is_replaced_however_it_is_written_and_a_photon_without_draws_is_told() {
+    let folder = folder();
+    let source = folder.path().join("other_calls.cpp");
+    std::fs::write(&source, OTHER_CALLS).expect("can be written");
+    let Some(program) = compile_file(&source, folder.path()) else { return };
+    let list = folder.path().join("list.csv");
+    let output = Command::new(program).arg(&list).output().expect("the program runs");
+    assert!(output.status.success());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("photon 1 drew no number"));
+    assert!((1.0..2.0).contains(&load(&list).expect("a list").records[0].position.x));
+}
+
 const MISTAKES: [(&str, &str, &str); 19] = [
     ("direct-stored", "1000", "Photon Storage"),
     ("bounce-off-by-one", "3", "Photon Storage"),

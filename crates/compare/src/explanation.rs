@@ -15,11 +15,13 @@ use variants::section::Section;
 
 /// So many of the photons that differ are traced again under every reading.
 const SAMPLE: usize = 150;
+/// So many, where a frame is to be measured around every normal.
+const MANY: usize = 20_000;
 /// So many records before and after a place in a list may belong to the same photon.
 const AROUND: usize = 4;
-/// Where a smaller part of the submission's photons scatter at their first hit, the draws may differ. Of
-/// photons with draws of their own, one in twelve does; with a wrong emission, half.
-const SAME_DRAWS: f32 = 0.3;
+/// Where a smaller part of the submission's photons scatter at their first hit, the draws may come in
+/// another order. Of photons with draws of their own, one in twelve does; with a wrong emission, half.
+const SAME_DRAWS: f32 = 0.9;
 /// Where a smaller part of them hit anything, the draws differ.
 const SAME_EMISSION: f32 = 0.5;
 
@@ -63,7 +65,8 @@ pub fn explain_fairly<'run>(
         }
         _ => base,
     };
-    let windows = windows(lists, differing, size);
+    let all_windows = |most| windows(lists, differing, size, most);
+    let windows = all_windows(SAMPLE);
     let other_draws = (Fair::of(run) != Some(base)).then_some(base);
     let by_place = || {
         let photons: Vec<_> = windows.iter().map(|window| window.photon).collect();
@@ -72,7 +75,11 @@ pub fn explain_fairly<'run>(
         let is_told = lists.submission.columns.photon;
         (!is_told).then(|| search.best_by_place(&base, &photons, &positions))?
     };
-    let fair = search.best(&base, &windows).or_else(by_place).or(other_draws)?;
+    let measured = || {
+        let is_told = lists.submission.columns.photon;
+        is_told.then(|| search.best_measured(&base, &all_windows(MANY), &windows))?
+    };
+    let fair = search.best(&base, &windows).or_else(by_place).or_else(measured).or(other_draws)?;
     let changes = fair.changes(run);
     if changes.is_empty() {
         return None;
@@ -130,15 +137,20 @@ fn come_from_the_light(known: &Known, lists: &Lists) -> bool {
     2 * lead_back.count() > records.len()
 }
 
-/// What the submission may have stored of some of the photons that differ, spread over the run.
-fn windows(lists: &Lists, differing: &[(Pairing, Difference)], size: f32) -> Vec<Window> {
+/// What the submission may have stored of about `most` of the photons that differ, spread over the run.
+fn windows(
+    lists: &Lists,
+    differing: &[(Pairing, Difference)],
+    size: f32,
+    most: usize,
+) -> Vec<Window> {
     let in_place = differing.iter().filter(|(_, difference)| *difference == Difference::Place);
     let places: Vec<_> = in_place.map(|(pairing, _)| *pairing).collect();
     let mut photons: Vec<_> =
         places.iter().filter_map(|pairing| lists.identity(*pairing).0).collect();
     photons.sort_unstable();
     photons.dedup();
-    let step = photons.len() / SAMPLE + 1;
+    let step = photons.len() / most + 1;
     let photons: Vec<_> = photons.into_iter().step_by(step).collect();
     if lists.submission.columns.photon {
         return exact_windows(lists, &photons);

@@ -81,7 +81,7 @@ impl Shift {
     }
 
     /// The vector for a hit with `normal` and the incoming direction `incoming`.
-    fn vector(self, normal: Vec3, incoming: Vec3) -> Vec3 {
+    pub(crate) fn vector(self, normal: Vec3, incoming: Vec3) -> Vec3 {
         self.along_normal * normal - self.back * incoming
     }
 

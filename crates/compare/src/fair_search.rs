@@ -67,7 +67,7 @@ impl Score {
     }
 
     /// Whether the directions are right, whatever the roulette does.
-    fn is_right_way(&self) -> bool {
+    pub(crate) fn is_right_way(&self) -> bool {
         self.loose >= FEWEST && self.loose >= 9 * self.elsewhere
     }
 
@@ -122,9 +122,6 @@ impl Search<'_> {
             windows.iter().filter(|window| !window.positions.is_empty()).cloned().collect();
         let before = self.score(base, &told);
         let mut finalists = self.frames(base, &told);
-        if finalists.is_empty() {
-            finalists.extend(self.measured_frame(base, &told));
-        }
         if finalists.is_empty() {
             let [roulette, a, b] = base.draws.order;
             for (order, complement) in

@@ -6,13 +6,17 @@ use std::f32::consts::TAU;
 use glam::{Mat3, Vec3};
 
 use crate::fair::Fair;
-use crate::fair_search::{Search, Window};
+use crate::fair_search::{LOOSE, Search, Window};
 use variants::frame::Frame;
 
 /// So many normals are told apart; a scene with more of them is not measured.
 const MOST_NORMALS: usize = 16;
-/// Fewer directions around a normal say nothing of its frame.
-const FEWEST: usize = 4;
+/// So many bounces away from the light, surfaces are measured.
+const ROUNDS: usize = 4;
+/// Fewer directions around a normal do not say whether the frame is mirrored.
+const FEWEST: usize = 2;
+/// So many have to agree; where there are fewer and they do not, nothing is known.
+const ENOUGH: usize = 6;
 /// The height over the surface may be this far off: a ray may start elsewhere.
 const HEIGHT: f32 = 0.03;
 /// Angles this far apart, in radians, are not of one frame.
@@ -46,20 +50,37 @@ struct Azimuths {
 }
 
 impl Search<'_> {
+    /// The fair way with the draws of `base` and a frame that is measured in `many` windows, with the offsets
+    /// that fit `few` of them; nothing where there is none, or it explains no more than `base`.
+    pub fn best_measured(&self, base: &Fair, many: &[Window], few: &[Window]) -> Option<Fair> {
+        let measured = self.measured_frame(base, many)?;
+        let before = self.score(base, few);
+        let (offset, _) = self.fit_offsets(&measured, few);
+        // Where rays start is known now, and their directions better.
+        let again = self.measure(&offset, many)?;
+        let unset = Fair { start: base.start, stored: base.stored, ..again };
+        let (fair, score) = self.fit_offsets(&unset, few);
+        (score.is_right_way() && score.tight > 2 * before.tight).then_some(fair)
+    }
+
     /// `base` with the frame that is measured in `windows`, if there is one in which nearly all photons
     /// leave their first hit at the right height and, around each normal, at one angle to the right one.
-    pub(crate) fn measured_frame(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
-        let base = &Fair { frame: Frame::REFERENCE, ..*base };
+    fn measured_frame(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
+        let mut fair = Fair { frame: Frame::REFERENCE, ..*base };
+        // What is hit only after a bounce can be measured when the frames before are known.
+        for _ in 0..ROUNDS {
+            fair = self.measure(&fair, windows)?;
+        }
+        Some(fair)
+    }
+
+    fn measure(&self, fair: &Fair, windows: &[Window]) -> Option<Fair> {
         let mut all = Vec::new();
         let mut wrong = 0;
         for window in windows.iter().filter(|window| window.is_exact) {
-            match self.azimuths(base, window) {
-                Some(Ok(azimuths)) => all.push(azimuths),
-                Some(Err(())) => wrong += 1,
-                None => {}
-            }
+            wrong += self.azimuths(fair, window, &mut all);
         }
-        if all.len() < 2 * FEWEST || 10 * wrong > all.len() {
+        if all.len() < ENOUGH || 10 * wrong > all.len() {
             return None;
         }
         let mut frame = MeasuredFrame {
@@ -68,44 +89,65 @@ impl Search<'_> {
             angles: [0.0; MOST_NORMALS],
             mirrored: [false; MOST_NORMALS],
         };
+        let mut of_normals: Vec<Vec<Azimuths>> = Vec::new();
         while let Some(normal) = all.first().map(|first| first.normal) {
             let (here, others): (Vec<_>, Vec<_>) =
                 all.into_iter().partition(|one| one.normal.abs_diff_eq(normal, 1e-4));
             all = others;
-            if here.len() < FEWEST {
-                continue;
-            }
+            of_normals.push(here);
+        }
+        of_normals.sort_by_key(|here| std::cmp::Reverse(here.len()));
+        for here in of_normals {
+            let normal = here[0].normal;
+            // One direction alone does not say whether the frame is mirrored: it is as around the others.
+            let is_alone_mirrored = here.len() < FEWEST && frame.mirrored[0];
             if frame.count == MOST_NORMALS {
                 return None;
             }
             let plain = one_angle(here.iter().map(|one| one.found - one.due));
             let turned = || one_angle(here.iter().map(|one| one.found + one.due));
-            let (angle, mirrored) =
-                plain.map(|a| (a, false)).or_else(|| turned().map(|a| (a, true)))?;
+            let plain = plain.filter(|_| !is_alone_mirrored);
+            let found = plain.map(|a| (a, false)).or_else(|| turned().map(|a| (a, true)));
+            let (angle, mirrored) = match found {
+                Some(found) => found,
+                None if here.len() < ENOUGH => continue,
+                None => return None,
+            };
             frame.normals[frame.count] = normal;
             frame.angles[frame.count] = angle;
             frame.mirrored[frame.count] = mirrored;
             frame.count += 1;
         }
-        (frame.count > 0).then_some(Fair { measured: Some(frame), ..*base })
+        (frame.count > 0).then_some(Fair { measured: Some(frame), ..*fair })
     }
 
-    /// The azimuths of a photon; an error where its height is wrong, nothing where it says nothing.
-    fn azimuths(&self, base: &Fair, window: &Window) -> Option<Result<Azimuths, ()>> {
-        let story = base.story(self.run, window.photon)?;
-        let hit = story.hits.first()?;
-        let (u1, u2) = (hit.u1?, hit.u2?);
-        let way = *window.positions.first()? - hit.point();
-        let normal = Vec3::from_array(hit.normal);
-        let local = base.frame.matrix(normal).inverse() * way.normalize_or_zero();
-        // Near the normal, and near the hit, an azimuth means nothing.
-        if way.length() < 0.1 * self.size || u1 < 0.1 {
-            return None;
+    /// Adds the azimuths of a photon at every hit that is still where it should be; how many of them are at a
+    /// wrong height.
+    fn azimuths(&self, fair: &Fair, window: &Window, all: &mut Vec<Azimuths>) -> usize {
+        let Some(story) = fair.story(self.run, window.photon) else { return 0 };
+        let mut wrong = 0;
+        let next = fair.stored(&story).into_iter().map(Some).chain([None]);
+        let mut incoming = Vec3::from_array(story.emission.direction);
+        for ((hit, position), model) in story.hits.iter().zip(&window.positions).zip(next) {
+            let (Some(u1), Some(u2)) = (hit.u1, hit.u2) else { break };
+            let normal = Vec3::from_array(hit.normal);
+            let way = *position - hit.point() - fair.start.vector(normal, incoming);
+            incoming = hit.direction.map_or(incoming, Vec3::from_array);
+            let local = fair.frame.matrix(normal).transpose() * way.normalize_or_zero();
+            // Near the normal, and near the hit, an azimuth means nothing.
+            if way.length() > 0.1 * self.size && u1 > 0.1 {
+                if (local.z - (1.0 - u1).sqrt()).abs() > HEIGHT {
+                    wrong += 1;
+                    break;
+                }
+                let found = libm::atan2f(local.y, local.x);
+                all.push(Azimuths { normal, due: TAU * u2, found });
+            }
+            if model.is_none_or(|model| model.distance(*position) > LOOSE * self.size) {
+                break;
+            }
         }
-        if (local.z - (1.0 - u1).sqrt()).abs() > HEIGHT {
-            return Some(Err(()));
-        }
-        Some(Ok(Azimuths { normal, due: TAU * u2, found: libm::atan2f(local.y, local.x) }))
+        wrong
     }
 }
 

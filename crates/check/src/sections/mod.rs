@@ -88,6 +88,11 @@ impl Verdict {
             if *death == Death::LeftOut && !told.is_empty() {
                 continue;
             }
+            // A path without end runs out of stack: that is told already.
+            let has_no_limit = self.faults.iter().any(|fault| fault.name == Some("no-limit"));
+            if has_no_limit && matches!(step, Step::Remaining(_)) {
+                continue;
+            }
             let sentence = death.sentence();
             if !told.contains(&sentence) {
                 let found = format!("{function} {sentence} ({})", where_of(*step));
