@@ -181,10 +181,8 @@ pub(super) fn transformation() -> Vec<Entry> {
             section,
             "The columns of the matrix are t, b and n, in this order: z is the normal's.",
             [
-                ("the columns of the matrix are t, n, b", columns([0, 2, 1])),
-                ("the columns of the matrix are n, t, b", columns([2, 0, 1])),
-                ("the columns of the matrix are b, n, t", columns([1, 2, 0])),
-                ("the columns of the matrix are n, b, t", columns([2, 1, 0])),
+                ("b is the third column of the matrix, not n", columns([0, 2, 1])),
+                ("t is the third column of the matrix, not n", columns([1, 2, 0])),
             ],
         ),
         Entry::new(
