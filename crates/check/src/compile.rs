@@ -45,7 +45,8 @@ pub struct Workshop<'kit> {
 }
 
 impl<'kit> Workshop<'kit> {
-    /// Copies the two files, and the headers and sources beside them, to where the framework has them.
+    /// Copies the two files, and the headers and sources beside them, to where the framework has
+    /// them.
     ///
     /// # Errors
     /// When a file cannot be copied.
@@ -88,7 +89,8 @@ impl<'kit> Workshop<'kit> {
     /// Compiles the harness and the submission; the path of the program.
     ///
     /// # Errors
-    /// When the compiler or the kit is at fault; what is wrong with the submission is the inner error.
+    /// When the compiler or the kit is at fault; what is wrong with the submission is the inner
+    /// error.
     pub fn build(&self, jobs: usize) -> Result<Result<PathBuf, BuildError>, CheckError> {
         let submission = self.path().join("submission");
         let harness = self.kit.path().join("harness/all.cpp");
@@ -330,7 +332,8 @@ impl<'kit> Workshop<'kit> {
         shown.map(|path| path.display().to_string())
     }
 
-    /// The sources beside the student's headers in a list of dependencies, as compilers write it for `make`.
+    /// The sources beside the student's headers in a list of dependencies, as compilers write it
+    /// for `make`.
     fn sources_of(&self, list: &str) -> BTreeSet<PathBuf> {
         let words = list.split_whitespace().filter(|word| *word != "\\");
         let headers = words.map(Path::new).filter(|path| {

@@ -83,7 +83,7 @@ pub struct StepLog {
 pub struct WholeLog {
     /// What was stored.
     pub records: Vec<PhotonRecord>,
-    /// Numbers drawn, photons sent out, rays traced; nothing when the run did not end.
+    /// Numbers drawn, photons emitted, rays traced; nothing when the run did not end.
     pub counts: Option<[u64; 3]>,
     /// Whether more was stored than anyone reads.
     pub is_too_long: bool,

@@ -14,8 +14,8 @@ const REMARK: &str = "remark";
 
 /// The grade of `report`, with the photon list and what its statistics say where it stored any.
 ///
-/// A section that is wrong makes a submission incorrect. Where all five are right and the whole run is not
-/// the reference's, as with random numbers of its own, the statistics of its list decide.
+/// A section that is wrong makes a submission incorrect. Where all five are right and the whole run
+/// is not the reference's, as with random numbers of its own, the statistics of its list decide.
 pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) -> Graded {
     let statistics = report.list.as_ref().filter(|_| !report.sections.is_empty()).map(|list| {
         let submission = Submission { name: report.submission.clone(), ..Submission::default() };
@@ -35,7 +35,8 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
         (Builds::Yes, None) => Verdict::NoDots,
         _ => Verdict::Unreadable,
     };
-    // What the sections and the exact comparison say is surer than statistics, which then only repeat it.
+    // What the sections and the exact comparison say is surer than statistics, which then only
+    // repeat it.
     let decides = !has_fault && !follows;
     for finding in of_list.iter().flat_map(|grade| &grade.findings) {
         let is_exact = finding.check == "exact comparison";

@@ -82,8 +82,8 @@ impl Kit {
         self.folder.path()
     }
 
-    /// The object file of the harness for submissions without headers of their own. The first one compiles it
-    /// with `compile`, which gives the path of the object, or what is wrong.
+    /// The object file of the harness for submissions without headers of their own. The first one
+    /// compiles it with `compile`, which gives the path of the object, or what is wrong.
     pub(crate) fn harness<E>(
         &self,
         compile: impl FnOnce() -> Result<Result<PathBuf, E>, CheckError>,

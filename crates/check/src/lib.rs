@@ -1,11 +1,11 @@
-//! From two C++ files to a grade: compiles `PointLight.cpp` and `PhotonMappingRenderer.cpp` as they were
-//! handed in, runs them, and says which sections of the handout they get right.
+//! From two C++ files to a grade: compiles `PointLight.cpp` and `PhotonMappingRenderer.cpp` as they
+//! were handed in, runs them, and says which sections of the handout they get right.
 //!
-//! The files are compiled against a small stand-in for the course framework ([`kit`], with the C++ under
-//! `assets/`). The stand-in's harness carries out a [`plan`]: small scenes with known answers, and the
-//! handout's scene. It tells what the student's code does as [`events`], and [`sections`] judge them; [`grade`] makes
-//! it a grade. What
-//! strangers' code may do is limited by [`sandbox`].
+//! The files are compiled against a small stand-in for the course framework ([`kit`], with the C++
+//! under `assets/`). The stand-in's harness carries out a [`plan`]: small scenes with known
+//! answers, and the handout's scene. It tells what the student's code does as [`events`], and
+//! [`sections`] judge them; [`grade`] makes it a grade. What strangers' code may do is limited by
+//! [`sandbox`].
 
 mod checking;
 pub mod compile;

@@ -1,5 +1,5 @@
-//! What the harness is to do: small scenes with known answers, one section of the handout at a time, and the
-//! handout's scene.
+//! What the harness is to do: small scenes with known answers, one section of the handout at a
+//! time, and the handout's scene.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,8 @@ pub const INTENSITY: Vec3 = Vec3::new(1e-3, 2e-3, 3e-3);
 pub const LIGHT: Vec3 = Vec3::new(0.3, -0.2, 1.5);
 /// A direction that the emission may find at its second try, before it is normalised.
 pub const SECOND_TRY: [f32; 3] = [0.25, -0.5, 0.125];
-/// The diffuse responses that tell one rule for P_r from another: every channel is the largest once.
+/// The diffuse responses that tell one rule for P_r from another: every channel is the largest
+/// once.
 pub const COLOURS: [Vec3; 3] =
     [Vec3::new(0.2, 0.5, 0.8), Vec3::new(0.8, 0.2, 0.5), Vec3::new(0.5, 0.8, 0.2)];
 /// How often a photon may bounce at most in steps where that must not matter.

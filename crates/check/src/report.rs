@@ -55,8 +55,8 @@ impl Whole {
         self.drawn.is_some_and(|drawn| drawn < self.photons)
     }
 
-    /// How the run went, in one line. Where all sections are right (`is_right`), a list that is not the
-    /// reference's comes of other random numbers.
+    /// How the run went, in one line. Where all sections are right (`is_right`), a list that is not
+    /// the reference's comes of other random numbers.
     pub fn sentence(&self, is_right: bool) -> String {
         if let Some(death) = &self.death {
             return death.clone();

@@ -1,4 +1,5 @@
-//! Running the harness: again after every step in which it dies, so that one step never hides another.
+//! Running the harness: again after every step in which it dies, so that one step never hides
+//! another.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

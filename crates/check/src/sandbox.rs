@@ -1,10 +1,11 @@
 //! Running programs that are not to be trusted.
 //!
-//! Every program gets an empty environment, no standard input, limits of time, memory and file size, and a
-//! process group of its own that ends with it. The limits are set by the shell's `ulimit`, which every POSIX
-//! system has: Rust can set them only in unsafe code, or after the program has started. Where bubblewrap
-//! works, the program sees the file system read-only, has no network and a process space of its own. The
-//! harness adds a filter of system calls on Linux; see `assets/harness/guard.cpp`.
+//! Every program gets an empty environment, no standard input, limits of time, memory and file
+//! size, and a process group of its own that ends with it. The limits are set by the shell's
+//! `ulimit`, which every POSIX system has: Rust can set them only in unsafe code, or after the
+//! program has started. Where bubblewrap works, the program sees the file system read-only, has no
+//! network and a process space of its own. The harness adds a filter of system calls on Linux; see
+//! `assets/harness/guard.cpp`.
 
 use std::ffi::OsString;
 use std::io::Read;
@@ -97,8 +98,9 @@ pub fn has_bubblewrap() -> bool {
     })
 }
 
-/// What the shell does before the program: sets the limits, gives the pipe of standard output the number 3, and
-/// lets what is printed go where errors go. A limit that the system does not know is passed over.
+/// What the shell does before the program: sets the limits, gives the pipe of standard output the
+/// number 3, and lets what is printed go where errors go. A limit that the system does not know is
+/// passed over.
 const SHELL: &str =
     "{ ulimit -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
 shift 3
@@ -125,8 +127,8 @@ impl Program {
         command.spawn().map_err(CheckError::io("sh"))
     }
 
-    /// Runs the program. `on_bytes` gets what it writes to file descriptor 3, piece by piece, and answers how
-    /// long the next piece may take; nothing for the end of the program.
+    /// Runs the program. `on_bytes` gets what it writes to file descriptor 3, piece by piece, and
+    /// answers how long the next piece may take; nothing for the end of the program.
     ///
     /// # Errors
     /// When the shell cannot be started.

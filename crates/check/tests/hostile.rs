@@ -1,4 +1,5 @@
-//! Code that misbehaves: one clear line under the section in which it happened, and the rest is judged.
+//! Code that misbehaves: one clear line under the section in which it happened, and the rest is
+//! judged.
 
 mod support;
 
@@ -14,7 +15,8 @@ use check::sections::{Status, judge};
 /// How long a run may take at most; a step of a small scene has its own patience within.
 const TIME: Duration = Duration::from_secs(2);
 
-/// What the light does, and what is said of it under Photon Emission; nothing where it comes to nothing.
+/// What the light does, and what is said of it under Photon Emission; nothing where it comes to
+/// nothing.
 const DEEDS: [(&str, &str); 13] = [
     ("loop", "does not end within"),
     ("crash", "segmentation fault"),

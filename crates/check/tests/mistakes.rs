@@ -1,4 +1,5 @@
-//! Right solutions pass in every section; a planted mistake is told under its section, with its name.
+//! Right solutions pass in every section; a planted mistake is told under its section, with its
+//! name.
 
 mod support;
 

@@ -1,5 +1,6 @@
-//! The same mistakes in programs of different styles: every section's verdict is right, whatever a student
-//! writes around it. Each program is compiled once; a file in its working folder says which mistake it makes.
+//! The same mistakes in programs of different styles: every section's verdict is right, whatever a
+//! student writes around it. Each program is compiled once; a file in its working folder says which
+//! mistake it makes.
 
 mod support;
 

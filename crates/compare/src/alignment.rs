@@ -31,8 +31,8 @@ pub enum Pairing {
 /// All other lists are paired by order: the longest sequence of records, in the order of both
 /// lists, that lie within `tolerance` world units of each other, stays together, and what lies
 /// between is paired one by one; unless far more records match when their order is passed over, as
-/// in a list that comes out of a tree. So a missing or extra record puts nothing out of step. Time grows
-/// as n log n.
+/// in a list that comes out of a tree. So a missing or extra record puts nothing out of step. Time
+/// grows as n log n.
 pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Vec<Pairing> {
     let lists = Lists { reference, submission, tolerance };
     if !(reference.columns.photon && submission.columns.photon) {
@@ -175,7 +175,8 @@ impl Lists<'_> {
         Some(of_reference.chain(extra).collect())
     }
 
-    /// Pairs records that lie upon each other by their directions to the light, where both lists have them.
+    /// Pairs records that lie upon each other by their directions to the light, where both lists
+    /// have them.
     fn uncross(&self, pairings: &mut [Pairing]) {
         if !(self.reference.columns.to_light && self.submission.columns.to_light) {
             return;

@@ -52,8 +52,8 @@ pub struct Lists<'lists> {
     pub pairings: &'lists [Pairing],
     /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
-    /// Whether the submission's directions to the light are what they should be where it stores what the
-    /// reference stores.
+    /// Whether the submission's directions to the light are what they should be where it stores
+    /// what the reference stores.
     pub has_true_to_light: bool,
 }
 

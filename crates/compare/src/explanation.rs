@@ -19,8 +19,9 @@ const SAMPLE: usize = 150;
 const MANY: usize = 20_000;
 /// So many records before and after a place in a list may belong to the same photon.
 const AROUND: usize = 4;
-/// Where a smaller part of the submission's photons scatter at their first hit, the draws may come in
-/// another order. Of photons with draws of their own, one in twelve does; with a wrong emission, half.
+/// Where a smaller part of the submission's photons scatter at their first hit, the draws may come
+/// in another order. Of photons with draws of their own, one in twelve does; with a wrong emission,
+/// half.
 const SAME_DRAWS: f32 = 0.9;
 /// Where a smaller part of them hit anything, the draws differ.
 const SAME_EMISSION: f32 = 0.5;
@@ -48,8 +49,8 @@ impl Explanation<'_> {
     }
 }
 
-/// Looks for a fair way that explains differences between `lists`; nothing if none explains clearly more
-/// than the run's own does.
+/// Looks for a fair way that explains differences between `lists`; nothing if none explains clearly
+/// more than the run's own does.
 pub fn explain_fairly<'run>(
     known: &Known<'run>,
     lists: &Lists,
@@ -137,7 +138,8 @@ fn come_from_the_light(known: &Known, lists: &Lists) -> bool {
     2 * lead_back.count() > records.len()
 }
 
-/// What the submission may have stored of about `most` of the photons that differ, spread over the run.
+/// What the submission may have stored of about `most` of the photons that differ, spread over the
+/// run.
 fn windows(
     lists: &Lists,
     differing: &[(Pairing, Difference)],

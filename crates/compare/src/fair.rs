@@ -1,5 +1,5 @@
-//! A fair way to do the assignment, and what is stored then: the draws in another order, another frame,
-//! another start of the scattered ray, positions stored a little off the surface.
+//! A fair way to do the assignment, and what is stored then: the draws in another order, another
+//! frame, another start of the scattered ray, positions stored a little off the surface.
 
 use glam::Vec3;
 
@@ -71,8 +71,8 @@ pub struct Fair {
     pub stored: Shift,
 }
 
-/// The start is moved this far along the ray as well, so that no rounding lets it meet the surface it
-/// leaves. World units for the handout's scene; it changes no path.
+/// The start is moved this far along the ray as well, so that no rounding lets it meet the surface
+/// it leaves. World units for the handout's scene; it changes no path.
 const AHEAD: f32 = 2e-5;
 
 impl Shift {
@@ -104,7 +104,8 @@ impl Fair {
         })
     }
 
-    /// The story of photon `photon` of `run` under this reading; nothing when the run has no such photon.
+    /// The story of photon `photon` of `run` under this reading; nothing when the run has no such
+    /// photon.
     pub fn story(&self, run: &Run, photon: u64) -> Option<Story> {
         let (light_index, light, _) = light_of(run, photon)?;
         let mut rand = photon_random(run.renderer.seed, photon);

@@ -53,7 +53,8 @@ impl Search<'_> {
         best
     }
 
-    /// Least squares, each residual weighted by the inverse of its length: of the offsets in `support`.
+    /// Least squares, each residual weighted by the inverse of its length: of the offsets in
+    /// `support`.
     fn fit(&self, fair: &Fair, support: u8, windows: &[Window]) -> Fair {
         let step = 5e-5 * self.size;
         let mut fair = *fair;

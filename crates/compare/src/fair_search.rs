@@ -1,7 +1,7 @@
 //! Which fair way to do the assignment explains what a submission stores?
 //!
-//! First the draws, which decide what photons are stored at all; then the frame, with a tolerance so wide
-//! that no offset matters; then the offsets, by least squares.
+//! First the draws, which decide what photons are stored at all; then the frame, with a tolerance
+//! so wide that no offset matters; then the offsets, by least squares.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -11,9 +11,11 @@ use crate::position_index::PositionIndex;
 use variants::frame::Frame;
 use variants::run::Run;
 
-/// A longer offset loses photons near edges, and is no fair one. As a part of the scene's longest edge.
+/// A longer offset loses photons near edges, and is no fair one. As a part of the scene's longest
+/// edge.
 pub const LONGEST_OFFSET: f32 = 3.5e-3;
-/// Positions this far apart may be the same hit seen from another start. As a part of the longest edge.
+/// Positions this far apart may be the same hit seen from another start. As a part of the longest
+/// edge.
 pub(crate) const LOOSE: f32 = 0.025;
 /// So many photons decide which frames are looked at closely.
 const FIRST_LOOK: usize = 24;
@@ -44,7 +46,8 @@ pub struct Search<'a> {
     pub size: f32,
 }
 
-/// How well a reading explains the windows, step by step along each path, up to the first that does not fit.
+/// How well a reading explains the windows, step by step along each path, up to the first that does
+/// not fit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Score {
     /// Records in about the right place.
@@ -78,8 +81,8 @@ impl Score {
 }
 
 impl Search<'_> {
-    /// The part of `photons`, which the submission stores, that scatter at their first hit under `fair`:
-    /// all do where the draws are the same.
+    /// The part of `photons`, which the submission stores, that scatter at their first hit under
+    /// `fair`: all do where the draws are the same.
     pub fn scattered_part(&self, fair: &Fair, photons: &[u64]) -> f32 {
         let scatters = |photon: &&u64| {
             let story = fair.story(self.run, **photon);
@@ -96,7 +99,8 @@ impl Search<'_> {
         photons.iter().filter(hits).count() as f32 / photons.len().max(1) as f32
     }
 
-    /// `base` with the draws in the order in which nearly all of `photons` scatter; nothing where none is.
+    /// `base` with the draws in the order in which nearly all of `photons` scatter; nothing where
+    /// none is.
     pub fn draws(&self, base: &Fair, photons: &[u64]) -> Option<Fair> {
         let orders = [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
         let mut all = Vec::new();
@@ -115,8 +119,8 @@ impl Search<'_> {
         (best > 0.9).then(|| all[first])
     }
 
-    /// The fair way with the draws of `base` that explains most of `windows`; nothing where none explains
-    /// clearly more than `base` does.
+    /// The fair way with the draws of `base` that explains most of `windows`; nothing where none
+    /// explains clearly more than `base` does.
     pub fn best(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
         let told: Vec<_> =
             windows.iter().filter(|window| !window.positions.is_empty()).cloned().collect();
@@ -138,7 +142,8 @@ impl Search<'_> {
             finalists.par_iter().map(|fair| self.fit_offsets(fair, &told)).collect();
         let mut best: Option<(Fair, Score)> = None;
         for (fair, score) in fitted {
-            // A clear margin: rounding alone must not prefer what comes later, which is less simple.
+            // A clear margin: rounding alone must not prefer what comes later, which is less
+            // simple.
             if best.is_none_or(|(_, best)| score.tight as f32 > 1.01 * best.tight as f32 + 0.5) {
                 best = Some((fair, score));
             }
@@ -149,8 +154,9 @@ impl Search<'_> {
         (gain >= FEWEST && 5 * gain >= all && score.is_right_way()).then_some(fair)
     }
 
-    /// The fair way under which most of `photons` are stored where the list, which does not tell its photons,
-    /// has any record; nothing where a quarter of them are not, or `base` does about as well.
+    /// The fair way under which most of `photons` are stored where the list, which does not tell
+    /// its photons, has any record; nothing where a quarter of them are not, or `base` does about
+    /// as well.
     pub fn best_by_place(&self, base: &Fair, photons: &[u64], positions: &[Vec3]) -> Option<Fair> {
         let index = PositionIndex::new(positions, self.tolerance);
         let found = |fair: &Fair| {
@@ -243,14 +249,16 @@ impl Search<'_> {
             || (window.is_exact
                 && story.ending == crate::explain::Ending::LeftTheScene
                 && found.len() < window.positions.len());
-        // What comes after the last record of a window may be absorbed: that is the roulette's matter.
+        // What comes after the last record of a window may be absorbed: that is the roulette's
+        // matter.
         let has_more = found.last().map_or(0, |(_, place)| place + 1) < window.positions.len();
         score.elsewhere += usize::from(is_lost && has_more);
         score
     }
 }
 
-/// Which of `stored` are found within `reach` in the window, in its order, up to the first that is not.
+/// Which of `stored` are found within `reach` in the window, in its order, up to the first that is
+/// not.
 pub(crate) fn matches(stored: &[Vec3], window: &Window, reach: f32) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut from = 0;

@@ -30,7 +30,8 @@ impl Known<'_> {
         }
     }
 
-    /// The fair way, that of the run itself included; nothing where the run's reading is no fair one.
+    /// The fair way, that of the run itself included; nothing where the run's reading is no fair
+    /// one.
     pub fn fair(&self) -> Option<Fair> {
         self.fair.or_else(|| Fair::of(self.run))
     }

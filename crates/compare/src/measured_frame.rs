@@ -1,5 +1,5 @@
-//! A frame around the normals that is measured, not known: whoever takes any two unit vectors at right
-//! angles to the normal and to each other samples the same directions.
+//! A frame around the normals that is measured, not known: whoever takes any two unit vectors at
+//! right angles to the normal and to each other samples the same directions.
 
 use std::f32::consts::TAU;
 
@@ -50,8 +50,9 @@ struct Azimuths {
 }
 
 impl Search<'_> {
-    /// The fair way with the draws of `base` and a frame that is measured in `many` windows, with the offsets
-    /// that fit `few` of them; nothing where there is none, or it explains no more than `base`.
+    /// The fair way with the draws of `base` and a frame that is measured in `many` windows, with
+    /// the offsets that fit `few` of them; nothing where there is none, or it explains no more than
+    /// `base`.
     pub fn best_measured(&self, base: &Fair, many: &[Window], few: &[Window]) -> Option<Fair> {
         let measured = self.measured_frame(base, many)?;
         let before = self.score(base, few);
@@ -63,8 +64,9 @@ impl Search<'_> {
         (score.is_right_way() && score.tight > 2 * before.tight).then_some(fair)
     }
 
-    /// `base` with the frame that is measured in `windows`, if there is one in which nearly all photons
-    /// leave their first hit at the right height and, around each normal, at one angle to the right one.
+    /// `base` with the frame that is measured in `windows`, if there is one in which nearly all
+    /// photons leave their first hit at the right height and, around each normal, at one angle to
+    /// the right one.
     fn measured_frame(&self, base: &Fair, windows: &[Window]) -> Option<Fair> {
         let mut fair = Fair { frame: Frame::REFERENCE, ..*base };
         // What is hit only after a bounce can be measured when the frames before are known.
@@ -99,7 +101,8 @@ impl Search<'_> {
         of_normals.sort_by_key(|here| std::cmp::Reverse(here.len()));
         for here in of_normals {
             let normal = here[0].normal;
-            // One direction alone does not say whether the frame is mirrored: it is as around the others.
+            // One direction alone does not say whether the frame is mirrored: it is as around the
+            // others.
             let is_alone_mirrored = here.len() < FEWEST && frame.mirrored[0];
             if frame.count == MOST_NORMALS {
                 return None;
@@ -121,8 +124,8 @@ impl Search<'_> {
         (frame.count > 0).then_some(Fair { measured: Some(frame), ..*fair })
     }
 
-    /// Adds the azimuths of a photon at every hit that is still where it should be; how many of them are at a
-    /// wrong height.
+    /// Adds the azimuths of a photon at every hit that is still where it should be; how many of
+    /// them are at a wrong height.
     fn azimuths(&self, fair: &Fair, window: &Window, all: &mut Vec<Azimuths>) -> usize {
         let Some(story) = fair.story(self.run, window.photon) else { return 0 };
         let mut wrong = 0;

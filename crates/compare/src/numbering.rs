@@ -1,7 +1,9 @@
-//! Which photon stored which record, where a list does not tell it but has the directions to the light.
+//! Which photon stored which record, where a list does not tell it but has the directions to the
+//! light.
 //!
-//! A record's direction leads back to where its photon scattered last. If that is the first hit of one of
-//! the run's photons, the record is that photon's first; if another record lies there, it is its next.
+//! A record's direction leads back to where its photon scattered last. If that is the first hit of
+//! one of the run's photons, the record is that photon's first; if another record lies there, it is
+//! its next.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -15,8 +17,9 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
 use variants::run::Run;
 
-/// How far a line back may pass from a hit, as a part of the longest edge: first without an offset of the
-/// ray's start, then with longer ones. The longer, the more photons are mistaken for another.
+/// How far a line back may pass from a hit, as a part of the longest edge: first without an offset
+/// of the ray's start, then with longer ones. The longer, the more photons are mistaken for
+/// another.
 pub const REACHES: [f32; 3] = [2.5e-4, 1e-3, LONGEST_OFFSET];
 /// A start this far along the direction is off the surface, as a part of the longest edge.
 const OFF_SURFACE: f32 = 5e-4;
@@ -28,7 +31,8 @@ const NEARLY_ALL: f32 = 0.95;
 const LONGEST_PATH: usize = 40;
 
 /// `list` with the photons and bounces of `run`; nothing where the list has them already, has no
-/// directions, or most of them lead back to no photon of the run's within `reach`, one of [`REACHES`].
+/// directions, or most of them lead back to no photon of the run's within `reach`, one of
+/// [`REACHES`].
 pub fn with_photons(run: &Run, list: &PhotonList, reach: f32) -> Option<PhotonList> {
     if list.columns.photon || !list.columns.to_light || list.records.is_empty() {
         return None;

@@ -9,8 +9,9 @@ use super::report::Outcome;
 /// A dot adds all red there is to a pixel, which no surface of the box comes near by direct light.
 const RED_OF_DOT: u8 = 255;
 
-/// The comparison of two pictures. Within the tolerance means here that every pixel, but
-/// for as many as may differ, has or lacks its dot as it should, and that no channel is further off than one step.
+/// The comparison of two pictures. Within the tolerance means here that every pixel, but for as
+/// many as may differ, has or lacks its dot as it should, and that no channel is further off than
+/// one step.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PictureReport {
     /// How they compare.
@@ -29,10 +30,10 @@ pub struct PictureReport {
     pub dots_extra: Option<u64>,
 }
 
-/// Compares two pictures, of which `allowed` pixels may have or lack a dot that the other has not. The
-/// difference picture shows the reference in grey, dots that both have
-/// in white, missing dots in blue, extra dots in red, and other differences in yellow; there is
-/// none when the pictures have different sizes.
+/// Compares two pictures, of which `allowed` pixels may have or lack a dot that the other has not.
+/// The difference picture shows the reference in grey, dots that both have in white, missing dots
+/// in blue, extra dots in red, and other differences in yellow; there is none when the pictures
+/// have different sizes.
 pub fn compare_pictures(
     reference: &RgbImage,
     submission: &RgbImage,

@@ -19,8 +19,8 @@ use photon_mapping::photon_list::ListHash;
 use photon_mapping::scene::Scene;
 use variants::run::Run;
 
-/// The part of the records that may still differ under the fair reading that explains the others: near
-/// edges, an offset that is only about known loses some.
+/// The part of the records that may still differ under the fair reading that explains the others:
+/// near edges, an offset that is only about known loses some.
 const LEFT_BY_READING: f64 = 1e-3;
 /// Fewer matched records say nothing about the directions to the light.
 const FEWEST_MATCHED: usize = 20;
@@ -38,7 +38,8 @@ pub enum Outcome {
     Identical,
     /// The same records within the tolerance, but for as many as are allowed to differ.
     WithinTolerance,
-    /// The same but for as many as rounding may change, when the handout is read in another fair way.
+    /// The same but for as many as rounding may change, when the handout is read in another fair
+    /// way.
     SameUnderAnotherReading,
     /// Not the same.
     Different,
@@ -217,8 +218,8 @@ fn is_run_of(list: &PhotonList, run: &Run, tolerance: f32) -> bool {
 }
 
 impl Report {
-    /// Says why `submission`, which differs, does: by a fair reading under which only a `few` records
-    /// differ, or by the first divergence that no fair reading explains.
+    /// Says why `submission`, which differs, does: by a fair reading under which only a `few`
+    /// records differ, or by the first divergence that no fair reading explains.
     fn explain(
         &mut self,
         run: &Run,

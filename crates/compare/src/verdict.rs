@@ -137,8 +137,8 @@ pub fn judge(observation: &Observation) -> Verdict {
     })
 }
 
-/// Where the scattered ray starts if its position was not set: seen by where it points to, or by where it
-/// goes.
+/// Where the scattered ray starts if its position was not set: seen by where it points to, or by
+/// where it goes.
 fn forgotten_start(
     observation: &Observation,
     previous: &Hit,
@@ -215,7 +215,8 @@ fn judge_other_origin(observation: &Observation) -> Verdict {
     judge_emission(observation, false)
 }
 
-/// Judges a photon that left the light in another direction; `is_sure` if nothing else can explain it.
+/// Judges a photon that left the light in another direction; `is_sure` if nothing else can explain
+/// it.
 fn judge_emission(observation: &Observation, is_sure: bool) -> Verdict {
     if let Some(known) = known_emission(observation) {
         return known;
@@ -231,7 +232,8 @@ fn judge_emission(observation: &Observation, is_sure: bool) -> Verdict {
     Verdict { section: Section::PhotonEmission, reason, is_certain }
 }
 
-/// The misreading of the emission under which the photon is stored just where the submission has it.
+/// The misreading of the emission under which the photon is stored just where the submission has
+/// it.
 fn known_emission(observation: &Observation) -> Option<Verdict> {
     let record = observation.submission?;
     let known = observation.known;

@@ -1,5 +1,5 @@
-//! The frames that are a fair reading of equations (7) and (8): every way to choose two vectors at right
-//! angles to the normal, with or without length 1.
+//! The frames that are a fair reading of equations (7) and (8): every way to choose two vectors at
+//! right angles to the normal, with or without length 1.
 
 use glam::{Mat3, Vec3};
 use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
@@ -36,7 +36,8 @@ pub struct Frame {
     pub lengths: Lengths,
     /// The axis of equation (7).
     pub axis: Vec3,
-    /// How close to 1 the absolute dot product of normal and axis may come before the fallback is taken.
+    /// How close to 1 the absolute dot product of normal and axis may come before the fallback is
+    /// taken.
     pub threshold: f32,
     /// The axis that takes the first one's place where that is close to parallel with the normal.
     pub fallback: Vec3,
@@ -163,8 +164,8 @@ fn closeness(normals: &[Vec3], axis: Vec3) -> Vec<f32> {
     all
 }
 
-/// The reference's threshold, then one between each two dot products that the scene has: those with the
-/// most room first, since a student's is likelier to lie there.
+/// The reference's threshold, then one between each two dot products that the scene has: those with
+/// the most room first, since a student's is likelier to lie there.
 fn thresholds(normals: &[Vec3], axis: Vec3) -> Vec<f32> {
     let closeness = closeness(normals, axis);
     let mut gaps: Vec<_> = closeness.windows(2).map(|pair| (pair[1] - pair[0], pair[0])).collect();

@@ -14,8 +14,8 @@
 //                                           a step: traces photons along these rays, in turn
 //   whole SCENE PHOTONS                     a step: the whole run
 //
-// COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled with
-// -fno-access-control, since TracePhoton is private.
+// COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled
+// with -fno-access-control, since TracePhoton is private.
 
 #include <cstdio>
 #include <exception>
@@ -62,7 +62,7 @@ struct Step {
     std::vector<std::uint32_t> numbers;
 };
 
-// Stands in for the light where TracePhoton cannot be called: it sends out the step's rays.
+// Stands in for the light where TracePhoton cannot be called: it emits the step's rays.
 class ScriptedLight : public Light {
 public:
     explicit ScriptedLight(const Step& of_step) : step(of_step), calls(0) {}
@@ -266,8 +266,8 @@ void run_emit(const Plan& plan, const Step& step) {
     }
 }
 
-// Through InitializeRenderer, for a TracePhoton that takes other arguments. Its paths start with the
-// light alone.
+// Through InitializeRenderer, for a TracePhoton that takes other arguments. Its paths start with
+// the light alone.
 template <class Renderer>
 void run_trace_from_light(Renderer& renderer, Scene& scene, const Step& step) {
     if (step.path != 1 || !set_bounces(renderer, step.remaining, 0)) {

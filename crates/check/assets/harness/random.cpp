@@ -95,8 +95,8 @@ std::uint32_t draw() {
         return *numbers.scripted++ << 7;
     }
     const std::uint32_t word = next_word();
-    // Six bits more, for those who take the remainder, as in rand() % 100. With them, a float still does
-    // not round up to 1.
+    // Six bits more, for those who take the remainder, as in rand() % 100. With them, a float still
+    // does not round up to 1.
     return (word >> 8 << 7) | (word & 63);
 }
 

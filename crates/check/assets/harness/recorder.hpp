@@ -13,7 +13,7 @@
 //   E u32            the call ended; the numbers it drew
 //   X u16, bytes     the call ended with an exception, which says this
 //   W 44 bytes       a photon of the whole run was stored: a row of a photon list
-//   C u64, u64, u64  the whole run ended: numbers drawn, photons sent out, rays traced
+//   C u64, u64, u64  the whole run ended: numbers drawn, photons emitted, rays traced
 //   L                the whole run stored more than anyone reads
 //   U                the submission's functions have another signature; the step is left out
 //   S u8             something worth saying happened for the first time; see Notice

@@ -101,8 +101,8 @@ impl Directions {
         self.is_even_around = is_uniform(&around);
     }
 
-    /// In the tangent space of `matrix`: the squared sines to the normal, the angles around it as parts of the
-    /// circle, and, alone in its list, the part that is above the surface.
+    /// In the tangent space of `matrix`: the squared sines to the normal, the angles around it as
+    /// parts of the circle, and, alone in its list, the part that is above the surface.
     fn seen_from(&self, _normal: Vec3, rays: &[Scattered], matrix: Mat3) -> [Vec<f64>; 3] {
         let inverse = matrix.inverse();
         let local: Vec<_> = rays

@@ -15,7 +15,8 @@ const DRAWN: u64 = 20_000;
 
 const REJECT: &str = "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.";
 
-/// A law that directions may follow: its name, if it is a known misreading, what it is, and one draw of it.
+/// A law that directions may follow: its name, if it is a known misreading, what it is, and one
+/// draw of it.
 struct Law {
     name: &'static str,
     what: &'static str,

@@ -221,7 +221,8 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
         verdict.fault(Some("late-roulette"), found, advice);
         return;
     }
-    // The part that scatters at the second hit, where the first direction was near the normal, and elsewhere.
+    // The part that scatters at the second hit, where the first direction was near the normal, and
+    // elsewhere.
     let mut parts = [[0_usize; 2]; 2];
     for call in calls.iter().filter(|call| call.hits().count() >= 2) {
         let first = call.hits().next().expect("there are two");

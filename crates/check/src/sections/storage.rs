@@ -182,7 +182,8 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     }
 }
 
-/// At the place of hit number `index`, from 0: how many photons are stored, and how many hits there have bounced.
+/// At the place of hit number `index`, from 0: how many photons are stored, and how many hits there
+/// have bounced.
 fn stored_and_due(call: &Call, index: usize) -> Option<(usize, usize)> {
     let place = call.hits().nth(index)?.hit();
     let near = |position: Vec3| place.abs_diff_eq(position, OFF_SURFACE);

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use check::kit::Kit;
 
-/// The kit, with its harness compiled once for all tests of a file; nothing, with a message, where there is
-/// no compiler or no glm. In CI there must be both.
+/// The kit, with its harness compiled once for all tests of a file; nothing, with a message, where
+/// there is no compiler or no glm. In CI there must be both.
 pub fn kit() -> Option<&'static Kit> {
     static KIT: OnceLock<Option<Kit>> = OnceLock::new();
     let made = KIT.get_or_init(|| match Kit::new(None) {
