@@ -100,7 +100,8 @@ fn remarks(observed: &Observed) -> Vec<String> {
     let has = |notice| observed.log.notices.contains(&notice);
     if has(Notice::RandomDevice) {
         remarks.push(
-            "std::random_device is read: here it gives the numbers of the photon's stream, so that every run is \
+            "std::random_device is read: here it gives the numbers of the photon's stream, so that \
+             every run is \
              the same"
                 .to_owned(),
         );
@@ -125,7 +126,8 @@ fn remarks(observed: &Observed) -> Vec<String> {
     }
     if !has_bubblewrap() {
         remarks.push(
-            "bubblewrap is not at hand: submissions could read files of this account, but not change them"
+            "bubblewrap is not at hand: submissions could read files of this account, but not \
+             change them"
                 .to_owned(),
         );
     }

@@ -8,13 +8,15 @@ use std::path::PathBuf;
 pub enum CheckError {
     /// There is no C++ compiler.
     #[error(
-        "no C++ compiler was found: install one (apt-get install g++, or xcode-select --install), or name \
+        "no C++ compiler was found: install one (apt-get install g++, or xcode-select --install), \
+         or name \
          one in the environment variable CXX"
     )]
     NoCompiler,
     /// The compiler does not find glm.
     #[error(
-        "the compiler does not find glm: install it (apt-get install libglm-dev, or brew install glm), or \
+        "the compiler does not find glm: install it (apt-get install libglm-dev, or brew install \
+         glm), or \
          name its folder with --glm PATH"
     )]
     NoGlm,

@@ -40,7 +40,8 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Finds the two files in `path`: a folder anywhere above them, or one of them, with the other beside it.
+    /// Finds the two files in `path`: a folder anywhere above them, or one of them, with the other
+    /// beside it.
     ///
     /// # Errors
     /// When `path` cannot be read.
@@ -97,7 +98,8 @@ fn is_hidden(path: &Path) -> bool {
     name.starts_with('.') || name == "__MACOSX" || name == "CMakeFiles"
 }
 
-/// The folder in which the framework's `common` lies, if `renderer` lies where the framework has it.
+/// The folder in which the framework's `common` lies, if `renderer` lies where the framework has
+/// it.
 fn checkout_of(renderer: &Path) -> Option<PathBuf> {
     let folder = fs::canonicalize(renderer.parent()?).ok()?;
     let root = folder.ancestors().nth(Path::new(RENDERER_FOLDER).components().count())?;
@@ -135,7 +137,8 @@ impl Search {
         }
     }
 
-    /// Of several files with one name, the one where the framework has it, else the one nearest to the top.
+    /// Of several files with one name, the one where the framework has it, else the one nearest to
+    /// the top.
     fn choose(&self, name: &str, home: &str, notes: &mut Vec<String>) -> Option<PathBuf> {
         let all = self.found.get(name)?;
         let at_home = |path: &&PathBuf| path.parent().is_some_and(|parent| parent.ends_with(home));

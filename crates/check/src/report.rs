@@ -78,11 +78,13 @@ impl Whole {
                 report.reading.as_deref().unwrap_or_default()
             ),
             Outcome::Different if self.draws_nothing() => format!(
-                "random numbers of its own (not from rand()), so that only statistics can tell; {records} \
+                "random numbers of its own (not from rand()), so that only statistics can tell; \
+                 {records} \
                  photons stored"
             ),
             Outcome::Different if is_right => format!(
-                "random numbers drawn in another way than the reference's, so that only statistics can \
+                "random numbers drawn in another way than the reference's, so that only statistics \
+                 can \
                  tell; {records} photons stored"
             ),
             Outcome::Different => self.divergence(report),
@@ -97,7 +99,8 @@ impl Whole {
         let reason = first.reason.as_deref().unwrap_or("not explained");
         let photon = first.photon.map(|photon| {
             format!(
-                "; what should have happened: photon-mapping explain {photon} --seed 148 --photons {}",
+                "; what should have happened: photon-mapping explain {photon} --seed 148 --photons \
+                 {}",
                 self.photons
             )
         });
@@ -124,7 +127,8 @@ impl Builds {
             Self::Yes => "yes".to_owned(),
             Self::MissingFile { file } => format!("no, there is no file {file}"),
             Self::EndsAtOnce { what } => format!(
-                "yes, but the program {what} before any function of the assignment is called: look at \
+                "yes, but the program {what} before any function of the assignment is called: look \
+                 at \
                  static variables and their constructors"
             ),
             Self::No(error) => {

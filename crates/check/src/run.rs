@@ -60,20 +60,26 @@ impl Death {
     pub fn sentence(&self) -> String {
         match self {
             Self::TimeOut { seconds } => {
-                format!("does not end within {seconds} s: look for a loop or a recursion without end")
+                format!(
+                    "does not end within {seconds} s: look for a loop or a recursion without \
+                         end"
+                )
             }
             Self::Signal { signal } => match *signal {
                 6 => "aborts: an assertion fails, or abort() is called".to_owned(),
                 8 => "divides an integer by zero".to_owned(),
                 9 | 24 => "uses up its time or its memory, and is ended".to_owned(),
-                11 => "crashes (segmentation fault): look for a pointer that points nowhere".to_owned(),
+                11 => "crashes (segmentation fault): look for a pointer that points \
+                       nowhere"
+                    .to_owned(),
                 25 => "writes a file that is too large, and is ended".to_owned(),
                 31 => "calls what is not allowed, and is ended".to_owned(),
                 signal => format!("is ended by signal {signal}"),
             },
             Self::Exit { code } => format!("ends the whole program with exit code {code}"),
             Self::StackOverflow => {
-                "overflows the stack: look for a recursion without end, or very large local variables"
+                "overflows the stack: look for a recursion without end, or very large local \
+                 variables"
                     .to_owned()
             }
             Self::TooMuchOutput => {

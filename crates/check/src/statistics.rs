@@ -5,7 +5,8 @@ pub const SIGMAS: f64 = 5.0;
 /// Beyond this, two distributions differ: a chance of 5e-7.
 const KOLMOGOROV: f64 = 2.75;
 
-/// The test of Kolmogorov and Smirnov: whether `sample` may come from the uniform distribution over [0, 1).
+/// The test of Kolmogorov and Smirnov: whether `sample` may come from the uniform distribution over
+/// [0, 1).
 pub fn is_uniform(sample: &[f64]) -> bool {
     let sorted = sorted(sample);
     let n = sorted.len() as f64;

@@ -43,15 +43,16 @@ pub struct CompareArgs {
     /// edge (0.0001 is a fifth of a millimetre in a box of two metres)
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
     tolerance: f32,
-    /// For lists: the fraction of the records that may differ while the lists still count as the same
-    /// (0.001 allows one in a thousand)
+    /// For lists: the fraction of the records that may differ while the lists still count as the
+    /// same (0.001 allows one in a thousand)
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     allow: f32,
-    /// For lists: count as different what is the same only under another fair reading of the handout
+    /// For lists: count as different what is the same only under another fair reading of the
+    /// handout
     #[arg(long)]
     strict: bool,
-    /// For pictures: how many pixels may have or lack a dot that the other picture has not; the framework's
-    /// picture of the reference's list has up to 5 such
+    /// For pictures: how many pixels may have or lack a dot that the other picture has not; the
+    /// framework's picture of the reference's list has up to 5 such
     #[arg(long, value_name = "N", default_value_t = 0)]
     dots: u64,
     /// For pictures: where to write the difference picture

@@ -79,8 +79,8 @@ fn text(table: &ExpectedTable) -> String {
     )
 }
 
-/// `value` with two digits of its error in brackets: 0.0053243(12) is 0.0053243 +- 0.0000012. What is
-/// exact, because no photon can get there, is 0.
+/// `value` with two digits of its error in brackets: 0.0053243(12) is 0.0053243 +- 0.0000012. What
+/// is exact, because no photon can get there, is 0.
 fn with_error(value: f64, error: f64) -> String {
     if value == 0.0 && error == 0.0 {
         return "0".to_owned();

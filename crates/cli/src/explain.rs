@@ -58,7 +58,8 @@ pub fn run(arguments: &ExplainArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
-/// Where the page of `explore` shows photon `photon`, if the page of this run is in its usual place.
+/// Where the page of `explore` shows photon `photon`, if the page of this run is in its usual
+/// place.
 fn link(run: &Run, photon: u64) -> String {
     let path = std::path::Path::new("out").join(super::explore::PAGE);
     let mut start = [0; 2048];

@@ -107,7 +107,8 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     if let Some(file) = options_that_are_files(&words).next() {
         let file = file.to_string_lossy();
         complain(&format!(
-            "error: '{file}' is an option, but also a file here: write -- before the names of files, \
+            "error: '{file}' is an option, but also a file here: write -- before the names of \
+             files, \
              or ./{file}"
         ));
         return FAILED;

@@ -70,7 +70,8 @@ fn no_list(path: &Path) -> Result<CliError, CliError> {
     let advice = match starts_with(path, b"{")? {
         true => "counts are merged without --out",
         false => {
-            "no other file names its run; trace it with --format ply (--out FILE.csv merges into CSV)"
+            "no other file names its run; trace it with --format ply (--out FILE.csv merges into \
+             CSV)"
         }
     };
     Ok(malformed(path, format!("expected a PLY list of render: {advice}")))
@@ -161,7 +162,8 @@ fn merge_counts(arguments: &MergeArgs) -> Result<Summary, CliError> {
     let read = |path: &PathBuf| -> Result<CountOnly, CliError> {
         let text = fs::read_to_string(path)
             .map_err(|source| ListError::Unreadable { path: path.clone(), source })?;
-        let expected = "expected a PLY list or the JSON of --count-only --json; a list in CSV does not \
+        let expected = "expected a PLY list or the JSON of --count-only --json; a list in CSV does \
+                        not \
                         name its run: trace it with --format ply";
         serde_json::from_str(&text).map_err(|_| malformed(path, expected))
     };

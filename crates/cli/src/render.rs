@@ -38,7 +38,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "A..B", value_parser = values::range)]
     range: Option<Range<u64>>,
     /// How many threads to use; the list does not depend on it [default: one for each core]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(1_u16, 1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = values::whole(1_u16, 1024))]
     threads: Option<u16>,
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
@@ -58,8 +59,8 @@ pub struct RenderArgs {
     /// photons; `merge` adds up the JSON summaries of adjoining ranges
     #[arg(long, conflicts_with_all = ["photons_from", "format", "size", "out"])]
     count_only: bool,
-    /// Where the random numbers come from. Keep chacha to compare lists with the reference; sobol gives
-    /// other photons, whose counts are closer to the expected values
+    /// Where the random numbers come from. Keep chacha to compare lists with the reference; sobol
+    /// gives other photons, whose counts are closer to the expected values
     #[arg(long, value_enum, default_value_t = SamplerName::Chacha)]
     sampler: SamplerName,
     /// No progress bars

@@ -61,12 +61,14 @@ pub struct RunArgs {
           allow_negative_numbers = true, value_parser = values::whole(1, u64::from(u32::MAX)))]
     pub photons: Option<u64>,
     /// How often a photon may bounce at most, 0 to 1000 times [default: 1000]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::whole(0_i32, 1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = values::whole(0_i32, 1000))]
     pub max_bounces: Option<i32>,
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// Use t and b as equations (7) and (8) give them, without normalising, to see what that changes
+    /// Use t and b as equations (7) and (8) give them, without normalising, to see what that
+    /// changes
     #[arg(long)]
     pub letter_of_the_handout: bool,
 }

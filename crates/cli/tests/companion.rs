@@ -1,5 +1,5 @@
-//! The pages and the code say the same: what a page names exists, and the code has a comment for every
-//! section of the handout.
+//! The pages and the code say the same: what a page names exists, and the code has a comment for
+//! every section of the handout.
 
 use std::fs;
 use std::path::Path;

@@ -397,7 +397,8 @@ fn another_limit_or_count_is_called_so() {
             !line.split(',').nth(10).expect("a bounce").parse().is_ok_and(|b: u32| b > 1)
         });
     });
-    let divergence = &json(run_line("compare --json --photons 20000 {}", &[&limited]).code(1))["first_divergence"];
+    let report = json(run_line("compare --json --photons 20000 {}", &[&limited]).code(1));
+    let divergence = &report["first_divergence"];
     assert_eq!(divergence["section"], "Photon Storage");
     assert!(divergence["reason"].as_str().expect("text").contains("after 1 bounces"));
     let line = "compare --json --photons 40000 {}";

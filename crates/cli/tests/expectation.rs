@@ -7,9 +7,9 @@ use oracle::Accuracy;
 use oracle::table::ExpectedTable;
 use photon_mapping::assignment8;
 
-/// Name, then N1, N2, N3, N4 + ..., stored: figures of an independent calculation. N2 of tallBox was
-/// 0.010443310 there, and the total with it 0.033413969; ours is 1.4e-9 above that,
-/// which is more than its last digit and our bound leave room for.
+/// Name, then N1, N2, N3, N4 + ..., stored: figures of an independent calculation. N2 of tallBox
+/// was 0.010443310 there, and the total with it 0.033413969; ours is 1.4e-9 above that, which is
+/// more than its last digit and our bound leave room for.
 const KNOWN: [(&str, [f64; 5]); 4] = [
     ("shortBox", [0.016710788766, 0.007977496, 0.00167178, 0.0012759, 0.0109252]),
     ("rightWall", [0.132736677536, 0.009668818, 0.00449688, 0.0017400, 0.0159057]),

@@ -1,4 +1,5 @@
-//! `grade` on what students hand in: folders and pairs, other programs' lists, and files that are none.
+//! `grade` on what students hand in: folders and pairs, other programs' lists, and files that are
+//! none.
 
 mod support;
 

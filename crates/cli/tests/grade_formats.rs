@@ -292,8 +292,9 @@ fn no_half_written_grade() {
     assert_eq!(names(out.parent().unwrap()), ["page.html"]);
 }
 
-/// Opens `page` in Chromium, `width` pixels wide; gives the document that it made of it. Nothing, with a
-/// message, where there is no Chromium; where `PHOTON_MAPPING_CHROMIUM` is set there must be one.
+/// Opens `page` in Chromium, `width` pixels wide; gives the document that it made of it. Nothing,
+/// with a message, where there is no Chromium; where `PHOTON_MAPPING_CHROMIUM` is set there must be
+/// one.
 fn browse(page: &Path, width: u32) -> Option<String> {
     let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
     let profile = folder();
@@ -336,7 +337,8 @@ fn pages_open_in_a_browser() {
     // A script is not allowed in pages, but a test of one may put it there to measure the layout.
     let measuring = "<script>document.body.dataset.broken = [...document.images]\
         .filter((image) => !image.complete || image.naturalWidth === 0).length; \
-        document.body.dataset.over = document.documentElement.scrollWidth - innerWidth;</script></body>";
+        document.body.dataset.over = document.documentElement.scrollWidth - \
+        innerWidth;</script></body>";
     for (file, parts) in [("r.csv.html", "correct"), ("w.csv.html", "incorrect")] {
         let page = fs::read_to_string(out.join(file)).unwrap();
         let page = page.replace("default-src 'none'", "script-src 'unsafe-inline'");

@@ -198,7 +198,8 @@ fn a_page_without_the_scene_is_not_red_all_over() {
 
 #[test]
 fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
-    // Of few photons few pixels are red, and hardly a group of cells is left to be told from others.
+    // Of few photons few pixels are red, and hardly a group of cells is left to be told from
+    // others.
     for seed in [70_085, 70_115, 70_328] {
         let red = simulate(Variation::default(), seed, 30_000, 2.9e-3);
         let judgement = judge(&red, Some(30_000));
@@ -475,7 +476,7 @@ fn a_list_and_a_picture_of_one_student() {
         findings.iter().map(|f| f["check"].as_str().expect("it has a name").to_owned()).collect()
     };
     let seed = photon_mapping::assignment8::SEED;
-    // A picture of another camera, and one of a run that sent out more of the same photons.
+    // A picture of another camera, and one of a run that emitted more of the same photons.
     for (name, emitted, view, odd) in [
         ("camera", 200_000, all.shifted(), "camera"),
         ("longer", MILLION, &all.view, "list and picture"),

@@ -165,7 +165,7 @@ fn right_cpp_gets_points_by_section_and_its_picture_is_judged_too() {
     if has_compiler(&results) {
         let names = names(&results);
         assert_eq!(names.iter().filter(|name| **name == "builds").count(), 1, "{names:?}");
-        assert!(names.contains(&"number"), "no test of the picture: {names:?}");
+        assert!(names.contains(&"dots by facet"), "no test of the picture: {names:?}");
         let tests = results["tests"].as_array().expect("an array");
         for title in Section::ALL.map(Section::title) {
             let test = tests.iter().find(|test| test["name"] == title).expect("each has its test");

@@ -102,7 +102,8 @@ fn csv_pieces_are_refused_with_what_to_do() {
         json_of(&render(&arguments), folder.path());
     }
     let merge = ["merge", "ply/photons.ply", "csv/photons.csv", "--out", "all.ply"];
-    let advice = "photons.csv: expected a PLY list of render: no other file names its run; trace it \
+    let advice = "photons.csv: expected a PLY list of render: no other file names its run; trace \
+                  it \
                   with --format ply";
     fails_with(&merge, folder.path(), advice);
     fails_with(&["merge", "csv/photons.csv"], folder.path(), "trace it with --format ply");

@@ -288,7 +288,8 @@ impl Report {
             self.uncertain(list.columns.photon);
             let differ = if list.columns.photon { "differ" } else { "may differ" };
             self.add_note(&format!(
-                "the random numbers {differ}: a list with another generator, seed or order of draws \
+                "the random numbers {differ}: a list with another generator, seed or order of \
+                 draws \
                  can be compared only by its statistics, as grade does"
             ));
         }

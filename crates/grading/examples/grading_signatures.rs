@@ -1,5 +1,5 @@
-//! Measures what the grader expects of hypotheses in lists, and writes it to `golden/signatures-of-lists.json`:
-//! of those that are not in it yet, or of all.
+//! Measures what the grader expects of hypotheses in lists, and writes it to
+//! `golden/signatures-of-lists.json`: of those that are not in it yet, or of all.
 //!
 //! `cargo run --release -p photon-mapping-grading --example grading_signatures -- [all]`
 

@@ -1,7 +1,8 @@
-//! How good the grader is with lists: how often it calls correct ones incorrect, and which misreadings it
-//! finds and names. Prints the tables of `golden/grading.md`.
+//! How good the grader is with lists: how often it calls correct ones incorrect, and which
+//! misreadings it finds and names. Prints the tables of `golden/grading.md`.
 //!
-//! `cargo run --release -p photon-mapping-grading --example grading_table -- [--false-alarms N] [--seeds N] [--only MISREADING]`
+//! `cargo run --release -p photon-mapping-grading --example grading_table -- [--false-alarms N]
+//! [--seeds N] [--only MISREADING]`
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};
@@ -86,9 +87,12 @@ fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expe
     ];
     println!("## Correct submissions called incorrect\n");
     println!(
-        "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to 1e-3 along \
-         the new direction, left-handed frames, positions up to 0.007 off their surface, three generators (one of 15 bits), with and without the \
-         number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a list, corrected for the number of tests; below \
+        "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to \
+         1e-3 along \
+         the new direction, left-handed frames, positions up to 0.007 off their surface, three \
+         generators (one of 15 bits), with and without the \
+         number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a \
+         list, corrected for the number of tests; below \
          {SIGNIFICANCE:.0e} it is called incorrect.\n"
     );
     println!("| emitted | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
@@ -263,8 +267,10 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
         };
         println!("## Found and named: {what}\n");
         println!(
-            "{seeds} lists of {EMITTED} photons emitted a row, of all of its ways in turn. The limit is how many of them \
-             the best test would find that knows both laws, by cells, and no fair reading but the closest.\n"
+            "{seeds} lists of {EMITTED} photons emitted a row, of all of its ways in turn. The \
+             limit is how many of them \
+             the best test would find that knows both laws, by cells, and no fair reading but the \
+             closest.\n"
         );
         println!("| what was done | limit | incorrect | named rightly | named wrongly |");
         println!("|---|---|---|---|---|");
@@ -302,8 +308,8 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
     println!("`bounce-off-by-one` is judged with `--max-bounces {SMALL_LIMIT}`.\n");
 }
 
-/// How often, over the ways to `id`, the best test would find it that knows two laws: this one, and that of the closest
-/// fair reading.
+/// How often, over the ways to `id`, the best test would find it that knows two laws: this one, and
+/// that of the closest fair reading.
 fn limit(id: &str, content: Content, expectations: &Expectations) -> Option<f64> {
     let emitted = match content {
         Content::PositionsAlone => None,
@@ -345,7 +351,8 @@ fn two_at_once(seeds: u64, expectations: &Expectations) {
     let (pairs, singles) = (pairs(), misreadings());
     println!("## Two misreadings at once\n");
     println!(
-        "Lists of {EMITTED} photons emitted, of {} pairs of misreadings in turn, which have no name: what was \
+        "Lists of {EMITTED} photons emitted, of {} pairs of misreadings in turn, which have no \
+         name: what was \
          told of them.\n",
         pairs.len()
     );

@@ -12,7 +12,8 @@ use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 const EMITTED: [u64; 2] = [1_000_000, 200_000];
 /// Far from all seeds with which signatures were measured.
 const FIRST_SEED: u64 = 70_000;
-/// The numbers of photons of correct pictures, and by how much fewer there are of these than of the first.
+/// The numbers of photons of correct pictures, and by how much fewer there are of these than of the
+/// first.
 const SIZES: [(u64, u64); 6] =
     [(10_000, 1), (30_000, 2), (100_000, 4), (1_000_000, 20), (3_000_000, 60), (10_000_000, 200)];
 

@@ -7,7 +7,8 @@ use photon_list::reader::PhotonList;
 
 /// How many records are looked at.
 const PROBES: usize = 10_000;
-/// In the axes they are in, nearly all photons lie on surfaces; in others, hardly more than half do.
+/// In the axes they are in, nearly all photons lie on surfaces; in others, hardly more than half
+/// do.
 const NEARLY_ALL: f64 = 0.95;
 const HARDLY_ALL: f64 = 0.8;
 

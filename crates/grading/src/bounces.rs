@@ -9,8 +9,8 @@ use super::trial::{LEEWAY, joined};
 use super::verdict::{Finding, Weight};
 use variants::section::Section;
 
-/// Holds the bounces of `observation` against `signature`: whether the last that is allowed occurs, and
-/// the counts of each.
+/// Holds the bounces of `observation` against `signature`: whether the last that is allowed occurs,
+/// and the counts of each.
 pub fn bounce_findings(
     observation: &Observation,
     emitted: Option<f64>,
@@ -48,7 +48,8 @@ pub fn bounce_findings(
             advice: if passed {
                 "".into()
             } else {
-                "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0. If the limit was \
+                "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0. If the \
+                 limit was \
                  meant to be another one, grade with --max-bounces."
                     .into()
             },
@@ -74,8 +75,11 @@ pub fn bounce_findings(
         weight: if counts_hits { Weight::Fault } else { Weight::Remark },
         advice: match (passed, counts_hits) {
             (true, _) => "",
-            (_, true) => "Check that every hit draws new random numbers, that the chance to scatter is that of \
-                the material that was hit, and how your list counts bounces.",
+            (_, true) => {
+                "Check that every hit draws new random numbers, that the chance to \
+                          scatter is that of \
+                the material that was hit, and how your list counts bounces."
+            }
             (_, false) => "Check how your list counts bounces.",
         }
         .into(),
@@ -85,11 +89,11 @@ pub fn bounce_findings(
 
 /// The check of each bounce's photons by place.
 pub const BOUNCES_BY_PLACE: &str = "bounces";
-/// Hits are counted from 0 or from 1, and the second is the first that is stored: so the first bounce of a list is 2
-/// at most.
+/// Hits are counted from 0 or from 1, and the second is the first that is stored: so the first
+/// bounce of a list is 2 at most.
 const LAST_FIRST_BOUNCE: u16 = 2;
-/// By which part of itself the number of long paths may be smaller: beyond the bounces of a signature, they are taken
-/// to end at the same rate.
+/// By which part of itself the number of long paths may be smaller: beyond the bounces of a
+/// signature, they are taken to end at the same rate.
 const LEEWAY_OF_LONG_PATHS: f64 = 0.15;
 
 /// The fault that no path has more bounces than the list has, where many should.
@@ -122,7 +126,8 @@ fn longest_path(
         advice: if passed {
             "".into()
         } else {
-            "Paths end too early: look for a limit of bounces other than the one that is asked for. If it was \
+            "Paths end too early: look for a limit of bounces other than the one that is asked \
+             for. If it was \
              meant, grade with --max-bounces."
                 .into()
         },

@@ -1,8 +1,9 @@
 //! Photons that crowd on spots and lines, tested exactly at any count.
 //!
-//! The scene is cut into cubes. A photon that falls into a cube where another one lies already is rarer the smaller
-//! the cubes are, whatever the fair reading: each cube has a bounded part of all photons. The bound on the chance is
-//! that of a supermartingale, so that it needs no large numbers.
+//! The scene is cut into cubes. A photon that falls into a cube where another one lies already is
+//! rarer the smaller the cubes are, whatever the fair reading: each cube has a bounded part of all
+//! photons. The bound on the chance is that of a supermartingale, so that it needs no large
+//! numbers.
 
 use std::collections::HashSet;
 
@@ -10,7 +11,8 @@ use glam::DVec3;
 
 /// Edges of the cubes, in world units.
 const EDGES: [f64; 5] = [2e-5, 2e-4, 2e-3, 2e-2, 0.1];
-/// Of all photons, so many at most lie on a unit of area: three times what the reference has where they are densest.
+/// Of all photons, so many at most lie on a unit of area: three times what the reference has where
+/// they are densest.
 const DENSEST: f64 = 1.0;
 /// The largest area of facets in a cube of edge 1: three faces that meet.
 const AREA: f64 = 3.0;

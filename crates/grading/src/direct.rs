@@ -9,16 +9,17 @@ use super::trial::LEEWAY;
 use super::verdict::{Finding, Weight};
 use variants::variation::{Emission, Variation};
 
-/// So many standard deviations apart are the counts with such photons and without, at least, before the counts
-/// decide: each half is far out in either tail.
+/// So many standard deviations apart are the counts with such photons and without, at least, before
+/// the counts decide: each half is far out in either tail.
 const APART: f64 = 8.0;
 /// A facet has so many times the share that it has under any mistake but this one, before it tells.
 const PLAINLY: f64 = 5.0;
 /// On so few photons, it does not.
 const FEWEST: f64 = 50.0;
 
-/// Whether so many photons straight from the light as the directions say are ruled out by the counts, which fit
-/// `emitted` emitted: straight from the light come far more to the tops of the boxes, say, than by a bounce.
+/// Whether so many photons straight from the light as the directions say are ruled out by the
+/// counts, which fit `emitted` emitted: straight from the light come far more to the tops of the
+/// boxes, say, than by a bounce.
 pub fn is_ruled_out(observation: &Observation, emitted: f64, expectations: &Expectations) -> bool {
     let Some(to_light) = observation.to_light else { return false };
     let (reference, Some(stored)) = (&expectations.signatures.fair[0], with_direct(expectations))
@@ -44,7 +45,8 @@ fn with_direct(expectations: &Expectations) -> Option<&Signature> {
     expectations.signatures.misreadings.get(at)
 }
 
-/// The fault that a facet has more photons than any mistake leaves there that stores none straight from the light.
+/// The fault that a facet has more photons than any mistake leaves there that stores none straight
+/// from the light.
 pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> Option<Finding> {
     // Where self-hits cannot be told from others, they may be what there is too much of.
     if observation.few_decimals.is_some() {
@@ -76,7 +78,8 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
             weight: Weight::Grave,
             ..straight_from_the_light(
                 format!(
-                    "{:.0} of {all:.0} lie on {}, where hardly any come but straight from the light",
+                    "{:.0} of {all:.0} lie on {}, where hardly any come but straight from the \
+                     light",
                     counts[class],
                     places.class_name(class)
                 ),
@@ -89,7 +92,8 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
 /// Of the photons that come straight from the light, this part at least is left on every facet.
 const LEFT_OF_DIRECT: f64 = 0.7;
 
-/// Whether every facet has as many photons as come to it straight from the light, where all on `class` do.
+/// Whether every facet has as many photons as come to it straight from the light, where all on
+/// `class` do.
 fn has_all_direct(counts: &[f64], class: usize, expectations: &Expectations) -> bool {
     let Some(stored) = with_direct(expectations) else { return false };
     let reference = &expectations.signatures.fair[0];

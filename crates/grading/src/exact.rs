@@ -60,8 +60,8 @@ fn follows(list: &PhotonList, renderer: &PhotonMappingRenderer) -> bool {
     5 * found > probes.len()
 }
 
-/// Whether the reference's photon of the same number hits where `record` is; straight from the light, too,
-/// for those who store that.
+/// Whether the reference's photon of the same number hits where `record` is; straight from the
+/// light, too, for those who store that.
 fn is_hit(renderer: &PhotonMappingRenderer, record: &PhotonRecord) -> bool {
     let photon = u64::from(record.photon);
     let mut is_hit = false;

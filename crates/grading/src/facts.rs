@@ -10,19 +10,20 @@ use variants::section::Section;
 
 /// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
 const MOST_REPEATED: f64 = 0.01;
-/// Photons at the same place to the last bit are no matter of where rays start: of 7 million photons emitted
-/// from all fair offsets, none was, and by chance, with six digits, it is one of ten million photons. A
-/// thousandth is left to programs that round more than the reference.
+/// Photons at the same place to the last bit are no matter of where rays start: of 7 million
+/// photons emitted from all fair offsets, none was, and by chance, with six digits, it is one of
+/// ten million photons. A thousandth is left to programs that round more than the reference.
 const MOST_IDENTICAL: f64 = 1e-3;
-/// The part of scattered photons that come from where the light stands, within a thousandth of a radian: none
-/// of 500,896, since it is one in a million by the solid angle.
+/// The part of scattered photons that come from where the light stands, within a thousandth of a
+/// radian: none of 500,896, since it is one in a million by the solid angle.
 const MOST_STRAIGHT: f64 = 1e-4;
 /// A stray photon or two is left to rounding.
 const MOST_ASTRAY: f64 = 5e-4;
 /// Of a column that numbers paths, fewer records than this lack the one before.
 const MOST_GAPS: f64 = 0.5;
-/// A list of photons without a count is shorter than what the handout asks for when it fits fewer photons sent
-/// out than this; with fewer than the second, what is stored is a dozen photons, which tell nothing.
+/// A list of photons without a count is shorter than what the handout asks for when it fits fewer
+/// photons emitted than this; with fewer than the second, what is stored is a dozen photons, which
+/// tell nothing.
 pub const FEW_EMITTED: f64 = 5000.0;
 const LEAST_EMITTED: f64 = 250.0;
 
@@ -60,7 +61,8 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} are not", of_all(counts.not_finite, records)),
             counts.not_finite == 0.0,
             Weight::Grave,
-            "Look for what makes numbers that are not finite: a division by 0, the root of a negative number, or a \
+            "Look for what makes numbers that are not finite: a division by 0, the root of a \
+             negative number, or a \
              vector of length 0 that is normalised.",
         ),
         fact(
@@ -80,7 +82,8 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             format!("{} lie there", of_all(counts.footprint, finite)),
             counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
             Weight::Fault,
-            "A photon got into a box: directions must be in the hemisphere over the normal, and the \
+            "A photon got into a box: directions must be in the hemisphere over the normal, and \
+             the \
              scattered ray must start above the surface.",
         ),
         fact(
@@ -91,13 +94,16 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             !is_repeated && !is_identical,
             Weight::Fault,
             if is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5) {
-                "Whole paths come again: check that the generator is seeded once for the whole run, and \
+                "Whole paths come again: check that the generator is seeded once for the whole \
+                 run, and \
                  that threads do not share a seed."
             } else if observation.repeats_by_rounding || observation.identical.is_none() {
-                "Scattered rays hit the triangle they leave: start them a little above the surface, or \
+                "Scattered rays hit the triangle they leave: start them a little above the \
+                 surface, or \
                  check that no photon is inserted twice."
             } else {
-                "Scattered rays come back at once to the surface they leave: check that directions are \
+                "Scattered rays come back at once to the surface they leave: check that directions \
+                 are \
                  in the hemisphere over the normal, and that rays start above the surface."
             },
         ),
@@ -133,10 +139,12 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             count <= (MOST_ASTRAY * later as f64).max(2.0),
             if counts_paths { Weight::Fault } else { Weight::Remark },
             if counts_paths {
-                "Records are lost. Lock the photon map while a thread inserts into it, or give every \
+                "Records are lost. Lock the photon map while a thread inserts into it, or give \
+                 every \
                  thread its own."
             } else {
-                "Let 'photon' number the photons that are emitted, and 'bounce' count each one's hits."
+                "Let 'photon' number the photons that are emitted, and 'bounce' count each one's \
+                 hits."
             },
         ));
     }
@@ -146,7 +154,10 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "same place",
             storage,
             "positions with at least four decimals",
-            format!("positions have {decimals} decimals: whether photons hit the triangle they leave cannot be told"),
+            format!(
+                "positions have {decimals} decimals: whether photons hit the triangle they \
+                     leave cannot be told"
+            ),
             false,
             Weight::Remark,
             "Write positions with all their digits, such as nine.",
@@ -191,9 +202,9 @@ pub fn straight_from_the_light(found: String, passed: bool) -> Finding {
     }
 }
 
-/// What costs nothing, since the handout says that positions are sufficient.
-/// `emitted` is how many photons were emitted by the word of the course, and `is_ruled_out` whether the photons
-/// lie where those straight from the light do not.
+/// What costs nothing, since the handout says that positions are sufficient. `emitted` is how many
+/// photons were emitted by the word of the course, and `is_ruled_out` whether the photons lie where
+/// those straight from the light do not.
 pub fn remarks(
     observation: &Observation,
     emitted: Option<f64>,
@@ -275,7 +286,8 @@ pub fn remarks(
             "to_light source",
             "directions to where the photon came from",
             format!(
-                "{to_the_light} of {set} point straight to the light, but the photons do not lie where \
+                "{to_the_light} of {set} point straight to the light, but the photons do not lie \
+                 where \
                  those straight from the light do"
             ),
             false,

@@ -71,15 +71,16 @@ impl Expectations {
     }
 }
 
-/// A constant factor of the intensity with which the photons are less likely than this does not excuse them: a list
-/// that lost as many photons by chance is as likely.
+/// A constant factor of the intensity with which the photons are less likely than this does not
+/// excuse them: a list that lost as many photons by chance is as likely.
 const LEAST_LIKELY_SLIP: f64 = 0.02;
 
-/// Of the records, at least this part lies on surfaces where their number is held against the intensity.
+/// Of the records, at least this part lies on surfaces where their number is held against the
+/// intensity.
 const MOSTLY: f64 = 0.5;
 
-/// Judges `observation`, of a list with at least one finite position, where `emitted` photons were sent
-/// out by the word of the user, or of the list itself.
+/// Judges `observation`, of a list with at least one finite position, where `emitted` photons were
+/// emitted by the word of the user, or of the list itself.
 pub fn judge(
     observation: &Observation,
     emitted: Option<f64>,
@@ -201,7 +202,8 @@ pub(super) fn two_at_once(pair: &Hypothesis) -> Cow<'static, str> {
 }
 
 /// What is to be done where no misreading explains a list.
-const UNEXPLAINED: &str = "None of the known misreadings explains it. Print a few photons and follow them by \
+const UNEXPLAINED: &str = "None of the known misreadings explains it. Print a few photons and \
+                           follow them by \
     hand; 'photon-mapping explain' tells one's whole story.";
 
 /// The same where a plain fault is told before.

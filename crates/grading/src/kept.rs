@@ -6,7 +6,8 @@ use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis};
 use variants::pairs::{OTHER_ROULETTE, PAIR};
 use variants::reading::Reading;
 
-/// A bounce fewer shows so little that with fewer photons than this, chance would be most of what it seems to do.
+/// A bounce fewer shows so little that with fewer photons than this, chance would be most of what
+/// it seems to do.
 const WITH_FEWER_BOUNCES: u64 = 4_000_000;
 
 /// With how many photons signatures are measured.
@@ -20,7 +21,8 @@ pub struct Effort {
     pub misreading: u64,
     /// For each other misreading.
     pub slow_misreading: u64,
-    /// For each that has no name: two misreadings at once, and other roulettes. With 0, none is looked for.
+    /// For each that has no name: two misreadings at once, and other roulettes. With 0, none is
+    /// looked for.
     pub pair: u64,
 }
 
@@ -60,7 +62,8 @@ impl Effort {
     }
 }
 
-/// Takes the signatures of `hypotheses`, in their order, out of `kept`; of those that have no name, none if none is kept.
+/// Takes the signatures of `hypotheses`, in their order, out of `kept`; of those that have no name,
+/// none if none is kept.
 pub(crate) fn take<S>(kept: &mut BTreeMap<String, S>, hypotheses: &[Hypothesis]) -> Vec<S> {
     let is_kept = hypotheses.first().is_some_and(|first| kept.contains_key(&first.key()));
     if !is_kept && hypotheses.iter().all(|hypothesis| hypothesis.misreading.is_none()) {

@@ -1,21 +1,23 @@
-//! A verdict on a submission, and the reason for it: which, of the ways in which the assignment may have been
-//! done, explains the photons of any program, with any random numbers?
+//! A verdict on a submission, and the reason for it: which, of the ways in which the assignment may
+//! have been done, explains the photons of any program, with any random numbers?
 //!
-//! Every way is a [`variants::hypotheses::Hypothesis`]: a fair reading of the handout, or a misreading seen in real
-//! submissions. Each is a small [variation](variants::variation) of one step of the reference, run through the same tracer,
-//! and its [`signature`] says how many photons it leaves where. A list is an [`observation`]: counts by
-//! facet and by cell ([`places`]), and what shows without counting. [`judge_list`] asks whether any fair
-//! reading explains the counts, and [`naming`] which misreading does.
+//! Every way is a [`variants::hypotheses::Hypothesis`]: a fair reading of the handout, or a
+//! misreading seen in real submissions. Each is a small [variation](variants::variation) of one
+//! step of the reference, run through the same tracer, and its [`signature`] says how many photons
+//! it leaves where. A list is an [`observation`]: counts by facet and by cell ([`places`]), and
+//! what shows without counting. [`judge_list`] asks whether any fair reading explains the counts,
+//! and [`naming`] which misreading does.
 //!
-//! **Statistics.** Photons of one path are not independent, so counts are held against means and *covariance*
-//! over paths: the test of Wald, for facets, for cells, for the total, and along the way to every known
-//! misreading, where the power is greatest. p-values are corrected for the number of tests (Sidak), and
-//! the fair reading that fits best counts. A submission is incorrect below [`judge_list::SIGNIFICANCE`], a
-//! tenth of what a class could bear: at small counts the tails of these tests are a little heavier than
-//! the normal law's. Means have a leeway of about half a part in a hundred, since where a ray starts, and how
-//! far off its surface a position is stored, are nobody's fault; it matters only beyond a million photons.
-//! A misreading is named when its own counts agree with the submission's, by facet and by cell, and neither another's
-//! do as well nor those of two at once ([`variants::pairs`]), which are told without a name.
+//! **Statistics.** Photons of one path are not independent, so counts are held against means and
+//! *covariance* over paths: the test of Wald, for facets, for cells, for the total, and along the
+//! way to every known misreading, where the power is greatest. p-values are corrected for the
+//! number of tests (Sidak), and the fair reading that fits best counts. A submission is incorrect
+//! below [`judge_list::SIGNIFICANCE`], a tenth of what a class could bear: at small counts the
+//! tails of these tests are a little heavier than the normal law's. Means have a leeway of about
+//! half a part in a hundred, since where a ray starts, and how far off its surface a position is
+//! stored, are nobody's fault; it matters only beyond a million photons. A misreading is named when
+//! its own counts agree with the submission's, by facet and by cell, and neither another's do as
+//! well nor those of two at once ([`variants::pairs`]), which are told without a name.
 //! `golden/grading.md` has what all of this achieves.
 
 pub mod axes;

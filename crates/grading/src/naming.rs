@@ -14,14 +14,15 @@ use variants::hypotheses::{
 use variants::pairs::{OTHER_ROULETTE, PAIR};
 use variants::variation::{FACETS, Start, Storage};
 
-/// A misreading that would show what is seen, or something stranger, less often than this explains nothing.
+/// A misreading that would show what is seen, or something stranger, less often than this explains
+/// nothing.
 const LEAST_LIKELY: f64 = 3e-3;
 /// The same of self-hits, whose law is only roughly known.
 const SELF_HITS_LEAST: f64 = 1e-4;
 /// One that is as rare as this is ruled out, whatever its cells say.
 const RULED_OUT: f64 = 1e-9;
-/// By hundreds of planted faults: how much likelier, before a list is seen, all faults that are not in the table are
-/// together than one that is.
+/// By hundreds of planted faults: how much likelier, before a list is seen, all faults that are not
+/// in the table are together than one that is.
 const OUTSIDE: f64 = 0.01;
 /// The same beside self-hits, whose law is only roughly known: much seems to be elsewhere.
 const SELF_HITS_OUTSIDE: f64 = 1e-4;
@@ -31,8 +32,8 @@ const SURE: f64 = 0.95;
 const SUREST: f64 = 0.999;
 /// Of identical positions, more than this part of all makes every path a copy of another.
 const ALL_COPIED: f64 = 0.95;
-/// When as large a part of all photons is at the same place as another one, self-hits are looked for, and
-/// misreadings without them explain nothing.
+/// When as large a part of all photons is at the same place as another one, self-hits are looked
+/// for, and misreadings without them explain nothing.
 const MANY_REPEATED: f64 = 0.03;
 /// Of more bounces than these, hardly a path has the last.
 const SMALL_LIMIT: i32 = 12;
@@ -55,7 +56,8 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with all others'.
+    /// Of `hypothesis`, whose counts agree with those seen as `fit` says; a likelihood comes with
+    /// all others'.
     pub(super) fn new(hypothesis: &Hypothesis, mut fit: Fit) -> Self {
         fit.log_likelihood += match hypothesis.id {
             PAIR => RARER_PAIR,
@@ -117,7 +119,8 @@ pub fn explain(
             || variation.storage != Storage::Indirect
             || variation.most_bounces.is_some()
             || variation.fewer_bounces > 0;
-        // Directions below the surface lead back to it, but not to the very same place; one start for all does.
+        // Directions below the surface lead back to it, but not to the very same place; one start
+        // for all does.
         let may_repeat =
             is_below && (!observation.repeats_by_rounding || variation.start != Start::Hit);
         of_nan == 0.0 && (may_repeat || repeated < MANY_REPEATED) && is_straight && is_long
@@ -140,7 +143,8 @@ pub fn explain(
         return Some(Explanation { hypothesis, fit, confidence: SUREST.min(1.0 - others) });
     }
     if of_nan == 0.0 && !is_short {
-        // Photons lost or stored twice all over the scene are no misreading, and neither is what only resembles one.
+        // Photons lost or stored twice all over the scene are no misreading, and neither is what
+        // only resembles one.
         let of_any_number = Comparison { emitted: None, ..comparison.clone() };
         let fair = fair.iter().zip(&signatures.fair);
         candidates.extend(
@@ -162,7 +166,8 @@ fn copied(observation: &Observation) -> Option<Explanation> {
     (copies.all > ALL_COPIED).then_some(Explanation { hypothesis, fit, confidence })
 }
 
-/// Counts to be held against signatures: the classes, and cells of so many photons that their law is nearly normal.
+/// Counts to be held against signatures: the classes, and cells of so many photons that their law
+/// is nearly normal.
 #[derive(Clone)]
 struct Comparison<'a> {
     observation: &'a Observation,
@@ -200,8 +205,8 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smallest p-value, with regard
-    /// to their number.
+    /// How well `signature` agrees: the likelihood by cells, which tell the most, and the smallest
+    /// p-value, with regard to their number.
     fn fit(&self, signature: &Signature) -> Fit {
         let by_class = fit(&self.of_classes, &signature.law_of_classes(LEEWAY), self.emitted);
         let by_cell = fit(&self.of_cells, &self.law_of_cells(signature), self.emitted);
@@ -221,8 +226,8 @@ impl<'a> Comparison<'a> {
         signature.law_of_cells(self.correlation, LEEWAY_OF_CELLS).grouped(groups, *count)
     }
 
-    /// The evidence for something that is not in the table, beside `best`: between it and another hypothesis, or
-    /// with another part of paths of each length.
+    /// The evidence for something that is not in the table, beside `best`: between it and another
+    /// hypothesis, or with another part of paths of each length.
     fn elsewhere(&self, best: &Explanation, expectations: &Expectations) -> f64 {
         let Expectations { misreadings, pairs, signatures, .. } = expectations;
         let (groups, count) = &self.groups;
@@ -248,8 +253,8 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// The likeliest of `candidates`, if it explains what is seen, and neither another one does as well nor something that is
-/// not in the table: `elsewhere` has the evidence for that, beside the best.
+/// The likeliest of `candidates`, if it explains what is seen, and neither another one does as well
+/// nor something that is not in the table: `elsewhere` has the evidence for that, beside the best.
 pub(super) fn most_likely(
     mut candidates: Vec<Explanation>,
     elsewhere: impl Fn(&Explanation) -> f64,

@@ -1,8 +1,9 @@
 //! What to make of an intensity that speaks of another number of photons than the list has.
 //!
-//! A wrong intensity costs nothing, but half of all photons missing does; of a list that says how many were
-//! emitted by its intensity alone, nobody can tell the one from the other. Only where the intensity is off by
-//! a constant that students are known to multiply by, it is believed to be the intensity.
+//! A wrong intensity costs nothing, but half of all photons missing does; of a list that says how
+//! many were emitted by its intensity alone, nobody can tell the one from the other. Only where the
+//! intensity is off by a constant that students are known to multiply by, it is believed to be the
+//! intensity.
 
 use std::f64::consts::PI;
 
@@ -18,8 +19,8 @@ pub struct Slip {
     power: f64,
 }
 
-/// Those that belong to powers, fluxes and responses of light, and a light that was made brighter by hand. No other
-/// factor is below 1: it would excuse as many photons missing.
+/// Those that belong to powers, fluxes and responses of light, and a light that was made brighter
+/// by hand. No other factor is below 1: it would excuse as many photons missing.
 pub const SLIPS: [Slip; 9] = [
     Slip { name: "4 pi", factor: 4.0 * PI, power: 1.0 },
     Slip { name: "2 pi", factor: 2.0 * PI, power: 1.0 },
@@ -32,8 +33,8 @@ pub const SLIPS: [Slip; 9] = [
     Slip { name: "1/N", factor: 1.0, power: 2.0 },
 ];
 
-/// No mistake stores more than this part of the photons emitted, unless it stores some twice: with those straight
-/// from the light, it is 0.29.
+/// No mistake stores more than this part of the photons emitted, unless it stores some twice: with
+/// those straight from the light, it is 0.29.
 const MOST_STORED: f64 = 1.0 / 3.0;
 
 impl Slip {
@@ -47,7 +48,8 @@ impl Slip {
 pub fn slip_finding(slip: Slip, number: f64, p_value: f64) -> Finding {
     Finding {
         found: format!(
-            "the intensity says {number:.0}; without a factor of {} it would say {:.0}, which the photons fit",
+            "the intensity says {number:.0}; without a factor of {} it would say {:.0}, which the \
+             photons fit",
             slip.name,
             slip.emitted(number)
         ),
@@ -84,8 +86,10 @@ pub fn contradiction(number: f64, fitted: f64, p_value: f64) -> Finding {
         p_value: Some(p_value),
         passed: false,
         weight: Weight::Fault,
-        advice: "Photons are lost or stored too often, all over the scene, or the intensity is wrong, which is to \
-                 be lightIntensity as it is. The list cannot tell which: grade with --emitted, and the \
+        advice: "Photons are lost or stored too often, all over the scene, or the intensity is \
+                 wrong, which is to \
+                 be lightIntensity as it is. The list cannot tell which: grade with --emitted, and \
+                 the \
                  intensity costs nothing."
             .into(),
     }

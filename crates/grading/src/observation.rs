@@ -9,11 +9,11 @@ use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 
-/// An intensity whose inverse is less is none of so many photons, but a colour left as it is, perhaps times a
-/// constant.
+/// An intensity whose inverse is less is none of so many photons, but a colour left as it is,
+/// perhaps times a constant.
 const LEAST_NUMBER: f64 = 100.0;
-/// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with three, three in
-/// a hundred of the photons of ten million emitted.
+/// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with
+/// three, three in a hundred of the photons of ten million emitted.
 const FEWEST_DECIMALS: i32 = 4;
 /// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
 const EXACT_DECIMALS: i32 = 6;
@@ -80,8 +80,8 @@ pub struct ToLight {
 }
 
 impl ToLight {
-    /// Whether all point to the light, through surfaces if need be: then they say nothing of the way that
-    /// photons came.
+    /// Whether all point to the light, through surfaces if need be: then they say nothing of the
+    /// way that photons came.
     pub fn is_towards_light_throughout(&self) -> bool {
         let set = self.set as f64;
         self.to_the_light as f64 > 0.95 * set && self.from_behind as f64 > 0.01 * set
@@ -103,22 +103,23 @@ pub struct Observation {
     pub counts: Counts,
     /// How many lie on a facet where another one does that is counted already.
     pub repeated: f64,
-    /// How many lie where another one does to the last bit; nothing where that may come from rounding.
+    /// How many lie where another one does to the last bit; nothing where that may come from
+    /// rounding.
     pub identical: Option<f64>,
     /// The same by their order in the list.
     pub copies: Option<Copies>,
-    /// Whether most of those that are repeated lie where another one does up to the rounding of an f32, and
-    /// positions have enough decimals to tell.
+    /// Whether most of those that are repeated lie where another one does up to the rounding of an
+    /// f32, and positions have enough decimals to tell.
     pub repeats_by_rounding: bool,
     /// The chance, at most, that photons lie as crowded as they do.
     pub crowding: f64,
-    /// If the list has the numbers of photons and bounces: of the records after a path's first, how many there are,
-    /// and how many have no record of the bounce before.
+    /// If the list has the numbers of photons and bounces: of the records after a path's first, how
+    /// many there are, and how many have no record of the bounce before.
     pub gaps: Option<[u64; 2]>,
     /// The same without those that are repeated.
     pub distinct: Counts,
-    /// How many decimals positions have, if so few that photons may lie at the same place by rounding alone:
-    /// then none counts as repeated.
+    /// How many decimals positions have, if so few that photons may lie at the same place by
+    /// rounding alone: then none counts as repeated.
     pub few_decimals: Option<i32>,
     /// How many photons were emitted by the word of the intensities, if they agree with each other.
     pub emitted_by_intensity: Option<f64>,

@@ -78,7 +78,8 @@ impl Facet {
 
     /// Where `point`, seen along the normal, lies between the facet's edges: each in [0, 1] on it.
     pub fn coordinates(&self, point: DVec3) -> [f64; 2] {
-        // The facets are parallelograms but for the floor, whose shape is off by one part in a hundred.
+        // The facets are parallelograms but for the floor, whose shape is off by one part in a
+        // hundred.
         let along = self.corners[1] - self.corners[0];
         let across = self.corners[3] - self.corners[0];
         let from = point - self.corners[0];
@@ -180,8 +181,8 @@ impl Places {
         Place::Cell { facet, cell: on.cell(foot) }
     }
 
-    /// The class of `place`, which is its facet, or one for all corners, or one for all footprints, and
-    /// its cell; nothing for places on no facet.
+    /// The class of `place`, which is its facet, or one for all corners, or one for all footprints,
+    /// and its cell; nothing for places on no facet.
     pub fn class_and_cell(&self, place: Place) -> Option<(usize, Option<usize>)> {
         match place {
             Place::Cell { facet, cell } => Some((facet, Some(cell))),
@@ -209,8 +210,9 @@ impl Places {
         format!("{} cell {}/{}", self.name(facet), row + 1, column + 1)
     }
 
-    /// Groups of cells: the cells of a facet each on its own if at least `least` photons of `emitted` are
-    /// expected in each of them, else the whole facet, and all facets that have fewer together.
+    /// Groups of cells: the cells of a facet each on its own if at least `least` photons of
+    /// `emitted` are expected in each of them, else the whole facet, and all facets that have fewer
+    /// together.
     pub fn joined_cells(&self, mean: &[f64], emitted: f64, least: f64) -> Vec<usize> {
         let mut groups = vec![0; self.cells];
         let mut count = 0;
@@ -273,8 +275,8 @@ impl Footprint {
     }
 }
 
-/// Where a mesh object with several facets stands on the one facet that looks up and lies under it: the
-/// scene's up is z.
+/// Where a mesh object with several facets stands on the one facet that looks up and lies under it:
+/// the scene's up is z.
 fn footprints(facets: &[Facet], surfaces: usize) -> Vec<Footprint> {
     let mut footprints = Vec::new();
     for surface in 0..surfaces {

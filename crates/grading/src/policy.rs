@@ -6,8 +6,8 @@ use serde::Deserialize;
 
 use super::verdict::{Grade, Verdict};
 
-/// Scores by verdict. The default is the handout's rubric: 4 for dots that look reasonable, 2 or 3 for
-/// dots that look incorrect, 1 for no dots, 0 for nothing.
+/// Scores by verdict. The default is the handout's rubric: 4 for dots that look reasonable, 2 or 3
+/// for dots that look incorrect, 1 for no dots, 0 for nothing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Policy {
@@ -25,7 +25,8 @@ pub struct Policy {
     pub unreadable: f64,
     /// For an incorrect one with this misreading, in place of the above.
     pub misreadings: BTreeMap<String, f64>,
-    /// For each section of the handout that `check` finds right, by its title, in place of the above.
+    /// For each section of the handout that `check` finds right, by its title, in place of the
+    /// above.
     pub sections: BTreeMap<String, f64>,
 }
 
@@ -45,8 +46,8 @@ impl Default for Policy {
 }
 
 impl Policy {
-    /// The score of `verdict`, where `is_plausible` tells whether photons are finite, on surfaces, and
-    /// indirect only.
+    /// The score of `verdict`, where `is_plausible` tells whether photons are finite, on surfaces,
+    /// and indirect only.
     pub fn score(&self, verdict: Verdict, misreading: Option<&str>, is_plausible: bool) -> f64 {
         match verdict {
             Verdict::Correct => self.correct,
@@ -110,7 +111,8 @@ pub struct SectionPoints {
     pub most: f64,
 }
 
-/// The points by `policy` of the section that finding `at` of `grade` is the first of, if it has any.
+/// The points by `policy` of the section that finding `at` of `grade` is the first of, if it has
+/// any.
 pub fn points(grade: &Grade, at: usize, policy: &Policy) -> Option<SectionPoints> {
     let title = grade.findings[at].check;
     let most = *policy.sections.get(title)?;

@@ -1,4 +1,5 @@
-//! Photons that hit the triangle they leave, told by their marks: places at which several photons lie.
+//! Photons that hit the triangle they leave, told by their marks: places at which several photons
+//! lie.
 
 use super::judge_list::Expectations;
 use super::observation::Observation;
@@ -7,20 +8,22 @@ use super::statistics::{Fit, fit, towards};
 use super::trial::LEEWAY;
 use variants::variation::{FACETS, survival_of_facets};
 
-/// How many standard deviations the places of self-hits must be towards those of first hits: what is
-/// stored twice for another reason is not.
+/// How many standard deviations the places of self-hits must be towards those of first hits: what
+/// is stored twice for another reason is not.
 const FIRST_HITS_SHOW: f64 = 6.0;
-/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first hits,
-/// which are not stored, they make at most so many known. Both are out of reach for rounding, which
-/// brings half of the starts below the surface.
+/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first
+/// hits, which are not stored, they make at most so many known. Both are out of reach for rounding,
+/// which brings half of the starts below the surface.
 const LEAST_SCATTERED: f64 = 0.5;
 const MOST_FIRST_HITS: f64 = 0.5;
-/// By which part of itself the number of photons that self-hits leave may be off: its prediction takes the same
-/// loss for all ways to a facet. A roulette with the mean would leave a quarter fewer.
+/// By which part of itself the number of photons that self-hits leave may be off: its prediction
+/// takes the same loss for all ways to a facet. A roulette with the mean would leave a quarter
+/// fewer.
 const LEEWAY_OF_LOSS: f64 = 0.12;
 
-/// Whether photons at the same place are there because rays start below the surface: by rounding, or since they come from
-/// behind it. Directions below the surface lead back to it from the front, and from farther away.
+/// Whether photons at the same place are there because rays start below the surface: by rounding,
+/// or since they come from behind it. Directions below the surface lead back to it from the front,
+/// and from farther away.
 pub(super) fn shows_self_hits(observation: &Observation) -> bool {
     let is_from_behind = observation.to_light.is_some_and(|to_light| {
         let from_behind = to_light.from_behind as f64;
@@ -30,10 +33,10 @@ pub(super) fn shows_self_hits(observation: &Observation) -> bool {
     observation.repeats_by_rounding || is_from_behind
 }
 
-/// Whether self-hits explain places at which several photons lie. How many there are depends on rounding, from
-/// facet to facet and from bounce to bounce, so their counts follow no law; but what they leave when every
-/// place counts once does: the places of scattered photons, of which a part is lost, and of first hits, of
-/// which a part becomes known.
+/// Whether self-hits explain places at which several photons lie. How many there are depends on
+/// rounding, from facet to facet and from bounce to bounce, so their counts follow no law; but what
+/// they leave when every place counts once does: the places of scattered photons, of which a part
+/// is lost, and of first hits, of which a part becomes known.
 pub(super) fn explain_by_self_hits(
     observation: &Observation,
     emitted: Option<f64>,
@@ -66,8 +69,8 @@ pub(super) fn explain_by_self_hits(
     explains.then_some(of_distinct)
 }
 
-/// Whether facets that the light does not reach have as many photons fewer as self-hits lose on their way: `counts`,
-/// at `distinct` places, of `emitted` emitted.
+/// Whether facets that the light does not reach have as many photons fewer as self-hits lose on
+/// their way: `counts`, at `distinct` places, of `emitted` emitted.
 fn loses_what_self_hits_lose(
     emitted: f64,
     counts: &[f64],
@@ -90,8 +93,8 @@ fn loses_what_self_hits_lose(
     for facet in lit {
         let (first, survival) = (first_hits(facet), f64::from(survival[facet]));
         let arriving = left * scattered(facet) + first;
-        // Of first hits, those are known that a self-hit followed. What follows that may be rarer: on some planes
-        // rounding brings no point below twice.
+        // Of first hits, those are known that a self-hit followed. What follows that may be rarer:
+        // on some planes rounding brings no point below twice.
         let again = ((distinct[facet] - left * scattered(facet)) / first).clamp(0.0, survival);
         let known_again = counts[facet] - distinct[facet] + first * again;
         let once_more = (1.0 - arriving * again / known_again.max(1.0)).clamp(0.0, survival);

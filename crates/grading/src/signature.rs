@@ -143,8 +143,8 @@ impl Signature {
         }
     }
 
-    /// The law of the classes after `bounce` bounces more than the first: of these, a path has at most
-    /// one photon, so that they are multinomial.
+    /// The law of the classes after `bounce` bounces more than the first: of these, a path has at
+    /// most one photon, so that they are multinomial.
     pub fn law_of_bounce(&self, bounce: usize, leeway: f64) -> Law {
         let mean = self.by_bounce[bounce].clone();
         let covariance = (0..mean.len()).map(|a| {
@@ -160,8 +160,8 @@ impl Signature {
     }
 }
 
-/// How many photons are close to a corner depends on how far off the surface they are stored, if that is
-/// along the photon's ray.
+/// How many photons are close to a corner depends on how far off the surface they are stored, if
+/// that is along the photon's ray.
 fn leeway_of_classes(leeway: f64, classes: usize) -> Vec<f64> {
     let mut of_classes = vec![leeway; classes];
     of_classes[classes - 2] = LEEWAY_OF_CORNERS;

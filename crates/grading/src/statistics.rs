@@ -35,7 +35,8 @@ pub struct Law {
     pub leeway: Vec<f64>,
 }
 
-/// Holds `counts` against `law` for `emitted` photons, or for as many as fit best: the test of Wald.
+/// Holds `counts` against `law` for `emitted` photons, or for as many as fit best: the test of
+/// Wald.
 pub fn fit(counts: &[f64], law: &Law, emitted: Option<f64>) -> Fit {
     let Some(emitted) = emitted else {
         return fit_of_any_size(counts, law);
@@ -88,12 +89,14 @@ impl Law {
         covariance
     }
 
-    /// The standard deviations of counts of `emitted` photons about this law's means, leeway included.
+    /// The standard deviations of counts of `emitted` photons about this law's means, leeway
+    /// included.
     pub fn deviations(&self, emitted: f64) -> Vec<f64> {
         self.of(emitted).iter().enumerate().map(|(at, row)| row[at].sqrt()).collect()
     }
 
-    /// The law of the sums of counts that have the same number in `groups`, of which there are `count`.
+    /// The law of the sums of counts that have the same number in `groups`, of which there are
+    /// `count`.
     pub fn grouped(&self, groups: &[usize], count: usize) -> Self {
         let mut covariance = vec![vec![0.0; count]; count];
         for (a, group) in groups.iter().enumerate() {
@@ -102,7 +105,8 @@ impl Law {
             }
         }
         let mean = grouped(&self.mean, groups, count);
-        // What one count is short of, its neighbours may have: the larger the group, the less is left.
+        // What one count is short of, its neighbours may have: the larger the group, the less is
+        // left.
         let off = self.mean.iter().zip(&self.leeway).map(|(mean, leeway)| (mean * leeway).powi(2));
         let off = grouped(&off.collect::<Vec<_>>(), groups, count);
         let leeway = mean.iter().zip(&off).map(|(mean, off)| off.sqrt() / mean.max(1e-300));
@@ -140,9 +144,10 @@ impl<'a> Residual<'a> {
         Self { law, factor, whitened, size, mean }
     }
 
-    /// How many standard deviations the counts are from the law on the way to `other`, the same law's means
-    /// in another case: the best single number to tell the two apart. With it, how many deviations
-    /// apart the two laws are. Where the number of photons is not known, what it could explain is left out.
+    /// How many standard deviations the counts are from the law on the way to `other`, the same
+    /// law's means in another case: the best single number to tell the two apart. With it, how many
+    /// deviations apart the two laws are. Where the number of photons is not known, what it could
+    /// explain is left out.
     pub fn towards(&self, other: &[f64]) -> (f64, f64) {
         let way = self.law.mean.iter().zip(other).map(|(a, b)| b - a);
         let mut way = self.factor.whiten(&way.collect::<Vec<_>>());
@@ -155,13 +160,15 @@ impl<'a> Residual<'a> {
         (deviations, self.size * length)
     }
 
-    /// How much likelier the counts are where an unknown part of the way to one of `others` was gone, forward or
-    /// back, than under the law itself: the evidence for something that neither has.
+    /// How much likelier the counts are where an unknown part of the way to one of `others` was
+    /// gone, forward or back, than under the law itself: the evidence for something that neither
+    /// has.
     pub fn elsewhere(&self, others: impl Iterator<Item = Vec<f64>>) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for other in others {
             let (deviations, length) = self.towards(&other);
-            // The likelihood at its peak, times the part of the way on which it is as high (Laplace).
+            // The likelihood at its peak, times the part of the way on which it is as high
+            // (Laplace).
             let part = ((2.0 * std::f64::consts::PI).sqrt() / (2.0 * length.max(1e-9))).min(1.0);
             sum += (0.5 * deviations * deviations).min(300.0).exp() * part;
             count += 1.0;
@@ -170,7 +177,8 @@ impl<'a> Residual<'a> {
     }
 }
 
-/// How many standard deviations `counts` are from `law` on the way to `other`, see [`Residual::towards`].
+/// How many standard deviations `counts` are from `law` on the way to `other`, see
+/// [`Residual::towards`].
 pub fn towards(counts: &[f64], law: &Law, other: &[f64], emitted: Option<f64>) -> f64 {
     Residual::new(counts, law, emitted).towards(other).0
 }
@@ -188,9 +196,9 @@ pub fn normal_tails(z: f64) -> f64 {
     erfc(z.abs() / std::f64::consts::SQRT_2)
 }
 
-/// The chance that a count of photons is farther from `mean`, on either side, than `count`. Photons come in
-/// paths, a few of which are long: where few are expected, their count is askew, and large counts are
-/// likelier than the normal law has it; the gamma law is more askew still.
+/// The chance that a count of photons is farther from `mean`, on either side, than `count`. Photons
+/// come in paths, a few of which are long: where few are expected, their count is askew, and large
+/// counts are likelier than the normal law has it; the gamma law is more askew still.
 pub fn tails_of_count(count: f64, mean: f64, variance: f64) -> f64 {
     let normal = normal_tails((count - mean) / variance.sqrt());
     let (shape, scaled) = (mean * mean / variance, count * mean / variance);

@@ -21,8 +21,8 @@ use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
 
-/// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with ten
-/// million photons and every mistake at once has fewer than this.
+/// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with
+/// ten million photons and every mistake at once has fewer than this.
 pub const MOST_RECORDS: usize = 5_000_000;
 
 /// A list and a picture of one run have more than this part of their red pixels in common.
@@ -47,7 +47,7 @@ pub struct Submission {
 /// How submissions are graded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// How many photons were sent out, if the course says so.
+    /// How many photons were emitted, if the course says so.
     pub emitted: Option<u64>,
     /// The seed of lists that follow the reference's streams.
     pub seed: u64,
@@ -249,7 +249,8 @@ fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Opti
         return None;
     }
     let found = format!(
-        "of {of_picture:.0} red pixels of the picture and {of_list:.0} of the list's photons, {both:.0} are \
+        "of {of_picture:.0} red pixels of the picture and {of_list:.0} of the list's photons, \
+         {both:.0} are \
          the same"
     );
     let advice = "Hand in the list and the picture of one run: the list is what is graded.";
@@ -410,7 +411,8 @@ fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
         p_value: None,
         passed: false,
         weight: Weight::Fault,
-        advice: "Insert a photon where the size of 'path' is larger than 1; check that 'path' grows and \
+        advice: "Insert a photon where the size of 'path' is larger than 1; check that 'path' \
+                 grows and \
                  that TracePhoton calls itself."
             .into(),
     };

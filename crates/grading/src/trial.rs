@@ -9,12 +9,14 @@ use super::test::Test;
 use variants::hypotheses::BOUNCE_OFF_BY_ONE;
 
 /// By which part of itself an expectation may be off for reasons that a course cannot fault: where
-/// exactly a ray starts, and how far off the surface a position is stored. Of 4,000,000 photons emitted, an
-/// offset of 1e-3 and positions 0.007 off moved 0.5 % of a facet's photons, or 1 % where they are few.
+/// exactly a ray starts, and how far off the surface a position is stored. Of 4,000,000 photons
+/// emitted, an offset of 1e-3 and positions 0.007 off moved 0.5 % of a facet's photons, or 1 %
+/// where they are few.
 pub(super) const LEEWAY: f64 = 0.006;
 /// The same for cells, of which a larger part lies along an edge.
 pub(super) const LEEWAY_OF_CELLS: f64 = 0.025;
-/// Cells are joined until so many photons are expected in each: below, counts are too far from normal.
+/// Cells are joined until so many photons are expected in each: below, counts are too far from
+/// normal.
 pub(super) const LEAST_EXPECTED: f64 = 25.0;
 
 /// The tests of a list against one fair reading.
@@ -26,8 +28,8 @@ pub(super) struct Trial {
     pub(super) emitted: f64,
 }
 
-/// The fair reading under which `observation` is least strange. Where it is strange under all of them, what
-/// was found is told beside the reference's numbers, which people know.
+/// The fair reading under which `observation` is least strange. Where it is strange under all of
+/// them, what was found is told beside the reference's numbers, which people know.
 pub(super) fn best_trial(
     observation: &Observation,
     emitted: Option<f64>,
@@ -54,9 +56,9 @@ pub(super) fn best_trial(
     }
 }
 
-/// Holds `observation` against one fair reading: by the shares of its places alone, and, where the number of photons is
-/// known, by their numbers as well. Each of both parts decides alone, so that what is rejected without the number is
-/// rejected with it.
+/// Holds `observation` against one fair reading: by the shares of its places alone, and, where the
+/// number of photons is known, by their numbers as well. Each of both parts decides alone, so that
+/// what is rejected without the number is rejected with it.
 fn attempt(
     observation: &Observation,
     emitted: Option<f64>,
@@ -113,7 +115,8 @@ fn tests(
     tests.push(Test {
         check: "facets",
         p_value: if has_facets {
-            // All together find what is spread over many facets, the farthest what is wrong with one.
+            // All together find what is spread over many facets, the farthest what is wrong with
+            // one.
             let all = of_facets.p_value;
             let one = smallest_tails(&joined_counts, &joined_law, size);
             corrected(all.min(one), 2)

@@ -43,8 +43,8 @@ pub struct Finding {
     pub expected: String,
     /// What was found.
     pub found: String,
-    /// The chance of finding this, or something stranger, in a correct submission, with regard to how
-    /// much was looked at; nothing for what is certain.
+    /// The chance of finding this, or something stranger, in a correct submission, with regard to
+    /// how much was looked at; nothing for what is certain.
     pub p_value: Option<f64>,
     /// Whether it is as it should be.
     pub passed: bool,

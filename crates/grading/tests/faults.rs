@@ -186,7 +186,8 @@ fn photons_that_go_up_are_not_called_direct() {
     }
 }
 
-/// Every path of `records` once more after each other, as from `threads` generators that are seeded alike.
+/// Every path of `records` once more after each other, as from `threads` generators that are seeded
+/// alike.
 fn by_threads(records: &[PhotonRecord], threads: usize) -> Vec<PhotonRecord> {
     (0..threads).flat_map(|_| records.iter().copied()).collect()
 }

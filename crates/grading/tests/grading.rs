@@ -249,7 +249,8 @@ fn misreadings_are_named_from_positions_alone() {
         name.is_some()
     });
     let named = named.count();
-    // A roulette that begins late and none at all are too alike; and of so many, a few look like something else.
+    // A roulette that begins late and none at all are too alike; and of so many, a few look like
+    // something else.
     assert!(named as f64 >= 0.85 * count as f64, "{named} of {count}");
 }
 

@@ -1,4 +1,5 @@
-//! Planted faults that are not in the table of misreadings: they are seen where they show, and get no name.
+//! Planted faults that are not in the table of misreadings: they are seen where they show, and get
+//! no name.
 
 use std::sync::LazyLock;
 
@@ -190,7 +191,8 @@ fn is_incorrect(judgement: &Judgement) -> bool {
     judgement.findings.iter().any(|finding| finding.is_fault())
 }
 
-/// Those of which the name of one is no false one, since it was made: by positions alone, the other does not show.
+/// Those of which the name of one is no false one, since it was made: by positions alone, the other
+/// does not show.
 const OF_TWO: [(&str, &str); 4] = [
     ("always, 3 bounces, upward", "half-directions"),
     ("mean of d, first hit sure", "late-roulette"),

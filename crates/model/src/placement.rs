@@ -3,21 +3,23 @@
 use glam::{DVec3, Vec3};
 use photon_mapping::scene::camera::PerspectiveCamera;
 
-/// A scene is traced with its largest extent from half of this up to, but not with, this. The handout's
-/// scene has 2.03, so it is traced as it stands.
+/// A scene is traced with its largest extent from half of this up to, but not with, this. The
+/// handout's scene has 2.03, so it is traced as it stands.
 const LARGEST_EXTENT: f64 = 4.0;
 
-/// A light farther away than this many extents counts for the size: a point hit from afar is rounded
-/// as coarsely as its distance asks for.
+/// A light farther away than this many extents counts for the size: a point hit from afar is
+/// rounded as coarsely as its distance asks for.
 const FAR_LIGHT: f64 = 8.0;
 
-/// From world space to the space in which a scene is traced, and back: a shift, then a power of two.
+/// From world space to the space in which a scene is traced, and back: a shift, then a power of
+/// two.
 ///
-/// The framework's lengths, 1e-5 to start a ray and 0.003 for a dot, are right for a scene about the
-/// size of the handout's and about the origin. Moved by 1e5, the rounding of a coordinate swallows such
-/// an offset, and a photon meets the surface it leaves; shrunk by 1e4, the offset leaps over the boxes.
-/// So a model is not traced where it stands, but where these lengths are right. Scaling by a power of two
-/// rounds nothing, and the shift is done in f64, before the coordinates are rounded to f32.
+/// The framework's lengths, 1e-5 to start a ray and 0.003 for a dot, are right for a scene about
+/// the size of the handout's and about the origin. Moved by 1e5, the rounding of a coordinate
+/// swallows such an offset, and a photon meets the surface it leaves; shrunk by 1e4, the offset
+/// leaps over the boxes. So a model is not traced where it stands, but where these lengths are
+/// right. Scaling by a power of two rounds nothing, and the shift is done in f64, before the
+/// coordinates are rounded to f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     origin: DVec3,
@@ -59,8 +61,8 @@ impl Placement {
         ((world - self.origin) * self.scale).as_vec3()
     }
 
-    /// A point of the scene in world space, rounded to f32 once: by up to half a unit in the last place of
-    /// each world coordinate.
+    /// A point of the scene in world space, rounded to f32 once: by up to half a unit in the last
+    /// place of each world coordinate.
     pub fn to_world(&self, scene: Vec3) -> Vec3 {
         if *self == Self::WORLD {
             return scene;

@@ -11,7 +11,7 @@ pub struct RunPart {
     pub version: String,
     /// The key of all random numbers.
     pub seed: u64,
-    /// How many photons the whole run sends out.
+    /// How many photons the whole run emits.
     pub emitted: u64,
     /// How often a photon may bounce.
     pub max_bounces: i32,

@@ -1,5 +1,5 @@
-//! What a submission may have done: the handout, read in one of the fair ways, or one of the misreadings
-//! seen in real submissions.
+//! What a submission may have done: the handout, read in one of the fair ways, or one of the
+//! misreadings seen in real submissions.
 
 use fast::lanes::offset::Offset;
 use glam::Vec3;

@@ -1,6 +1,8 @@
-//! Every tracer that is not the reference: fair readings of the handout, misreadings, another sampler.
+//! Every tracer that is not the reference: fair readings of the handout, misreadings, another
+//! sampler.
 //!
-//! [`run::Run`] is what the toolkit traces. Where it is the reference, the port or the fast path does it.
+//! [`run::Run`] is what the toolkit traces. Where it is the reference, the port or the fast path
+//! does it.
 
 pub mod frame;
 pub mod hypotheses;

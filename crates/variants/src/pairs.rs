@@ -1,5 +1,5 @@
-//! Two misreadings at once. None of them is named: they are there so that a single one is not named for what two
-//! have done, and so that the student hears of both.
+//! Two misreadings at once. None of them is named: they are there so that a single one is not named
+//! for what two have done, and so that the student hears of both.
 
 use super::hypotheses::{Hypothesis, misreadings, to_the_letter};
 use super::variation::{Roulette, Storage, Variation};
@@ -9,8 +9,8 @@ use crate::sampling::{Emission, Hemisphere};
 /// The name of all pairs for programs.
 pub const PAIR: &str = "two-at-once";
 
-/// The misreadings that are seen most, of which one does not hide the other. Where photons scatter below the surface,
-/// or always, little else shows.
+/// The misreadings that are seen most, of which one does not hide the other. Where photons scatter
+/// below the surface, or always, little else shows.
 const COMMON: [&str; 10] = [
     "direct-stored",
     "uniform-hemisphere",
@@ -37,8 +37,8 @@ pub fn can_be_of_two() -> Vec<Hypothesis> {
 /// The name of all roulettes that have none, for programs.
 pub const OTHER_ROULETTE: &str = "other-roulette";
 
-/// Roulettes that are no misreading of the table: a grid of the chances of the scene's two diffuse responses. They
-/// are there so that no roulette is named for one that only resembles it.
+/// Roulettes that are no misreading of the table: a grid of the chances of the scene's two diffuse
+/// responses. They are there so that no roulette is named for one that only resembles it.
 fn other_roulettes() -> Vec<Hypothesis> {
     let mut all = Vec::new();
     for bright in 3..=10_u8 {

@@ -12,8 +12,8 @@ pub enum TangentBasis {
     /// As the equations stand: t = n x (1, 0, 0) is shorter than 1 unless n is at a right angle to
     /// the x axis, and the lobe of directions is narrower than the cosine's.
     LetterOfTheHandout,
-    /// Both have length 1, but t, b and n are the rows of the matrix instead of its columns. This is
-    /// no fair reading: it is here so that it can be told from one.
+    /// Both have length 1, but t, b and n are the rows of the matrix instead of its columns. This
+    /// is no fair reading: it is here so that it can be told from one.
     Transposed,
 }
 

@@ -41,8 +41,8 @@ impl Run {
         Self::of_scene(scene, Placement::WORLD, seed, photon_count)
     }
 
-    /// The reference run of `scene`, which stands in the world at `placement`. A scene of many triangles
-    /// gets a tree.
+    /// The reference run of `scene`, which stands in the world at `placement`. A scene of many
+    /// triangles gets a tree.
     pub fn of_scene(mut scene: Scene, placement: Placement, seed: u64, photon_count: u64) -> Self {
         fast::tree::accelerate(&mut scene);
         let renderer = assignment8::create_renderer(scene);
@@ -60,8 +60,8 @@ impl Run {
         self.reading == Reading::REFERENCE && self.sampler == Sampler::ChaCha
     }
 
-    /// Traces the photons numbered `photons` on this thread. After each photon, `photon_done` gets its
-    /// number, its path and what it stored, in the scene's space.
+    /// Traces the photons numbered `photons` on this thread. After each photon, `photon_done` gets
+    /// its number, its path and what it stored, in the scene's space.
     pub fn trace_photons(
         &self,
         photons: Range<u64>,
@@ -83,7 +83,8 @@ impl Run {
         }
     }
 
-    /// The path of a photon that leaves its light on `photon_ray` and then draws from `rand`. Scene space.
+    /// The path of a photon that leaves its light on `photon_ray` and then draws from `rand`. Scene
+    /// space.
     pub fn trace_photon(
         &self,
         photon_ray: &Ray,
@@ -111,7 +112,8 @@ impl Run {
         path
     }
 
-    /// The records of the photons numbered `photons`, traced one by one on this thread. World space.
+    /// The records of the photons numbered `photons`, traced one by one on this thread. World
+    /// space.
     pub fn trace_piece(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
         let mut list = Vec::new();
         self.trace_photons(photons, |photon, path, stored| {
@@ -121,10 +123,10 @@ impl Run {
         list
     }
 
-    /// Traces the photons numbered `photons` on all threads of the current rayon pool, as fast as it can
-    /// be done to the same bits, and hands their records (world space) to `consume` in order, with the
-    /// number of photons done so far. Gives the difference between the fast path and the port if there is
-    /// one; all records are then the port's.
+    /// Traces the photons numbered `photons` on all threads of the current rayon pool, as fast as
+    /// it can be done to the same bits, and hands their records (world space) to `consume` in
+    /// order, with the number of photons done so far. Gives the difference between the fast path
+    /// and the port if there is one; all records are then the port's.
     ///
     /// # Errors
     /// The first error of `consume`, which ends the tracing.
@@ -160,7 +162,8 @@ impl Run {
         Ok(None)
     }
 
-    /// Lanes for this run, whose records are in the scene's space; `None` where they cannot trace it.
+    /// Lanes for this run, whose records are in the scene's space; `None` where they cannot trace
+    /// it.
     pub fn lanes(&self) -> Option<LaneTracer<'_>> {
         let Self { renderer, reading, sampler, .. } = self;
         // Lanes take the last column of the frame for the normal.
@@ -192,7 +195,8 @@ impl Run {
         }
     }
 
-    /// The start of the SHA-256 of everything but the seed and the counts that decides where photons go.
+    /// The start of the SHA-256 of everything but the seed and the counts that decides where
+    /// photons go.
     fn scene_digest(&self) -> [u8; 8] {
         let scene = self.scene();
         let mut hash = Sha256::new();

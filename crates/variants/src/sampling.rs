@@ -93,8 +93,8 @@ pub enum Hemisphere {
 }
 
 impl Hemisphere {
-    /// A direction over a surface, of any length, for the roulette's `number` and the next of `rand`. `frame` leads
-    /// from tangent space to world space.
+    /// A direction over a surface, of any length, for the roulette's `number` and the next of
+    /// `rand`. `frame` leads from tangent space to world space.
     pub fn direction(
         self,
         normal: Vec3,

@@ -85,8 +85,8 @@ impl Simulation {
         self.renderer.emitted()
     }
 
-    /// What the photons numbered `photons` store, on this thread: path after path. The column `surface`
-    /// has the facet.
+    /// What the photons numbered `photons` store, on this thread: path after path. The column
+    /// `surface` has the facet.
     pub fn trace(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
         let frame = |normal| self.variation.tangent_frame(normal);
         let offset = self.variation.reading.offset;
@@ -99,8 +99,8 @@ impl Simulation {
         }
     }
 
-    /// As [`Self::trace`], but with `numbers`, each in [0, 1), one after another for all photons: as a
-    /// program has it that knows nothing of streams.
+    /// As [`Self::trace`], but with `numbers`, each in [0, 1), one after another for all photons:
+    /// as a program has it that knows nothing of streams.
     pub fn trace_with(
         &self,
         photons: Range<u64>,
@@ -121,7 +121,8 @@ impl Simulation {
             let mut rand = generator(photon);
             let mut coming = VecDeque::new();
             if self.variation.repeats_numbers {
-                // Whoever is given a copy of the generator draws what comes next without using it up.
+                // Whoever is given a copy of the generator draws what comes next without using it
+                // up.
                 self.trace_photon(photon as u32, &mut records, |is_copy, ahead| match is_copy {
                     true => {
                         while coming.len() <= ahead {
@@ -138,8 +139,8 @@ impl Simulation {
         records
     }
 
-    /// Adds what one photon stores. `draw` gives the next number, or, for the sampler of directions over the
-    /// surface, its first, second and so on.
+    /// Adds what one photon stores. `draw` gives the next number, or, for the sampler of directions
+    /// over the surface, its first, second and so on.
     fn trace_photon(
         &self,
         photon: u32,
@@ -194,7 +195,8 @@ impl Simulation {
             match self.scattered_ray(&state, normal, sampled.normalize()) {
                 Some(scattered) => ray = scattered,
                 None => {
-                    // Where the direction is not a number, the framework's tests find a hit that is not one.
+                    // Where the direction is not a number, the framework's tests find a hit that is
+                    // not one.
                     let nowhere = PhotonRecord { position: Vec3::NAN, photon, ..ABSENT };
                     records.push(PhotonRecord { bounce, ..nowhere });
                     while draw(false, 0) < survival[0] {

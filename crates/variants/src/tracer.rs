@@ -1,7 +1,7 @@
 //! The one configurable tracer: `trace_photon` of the port with its knobs out.
 //!
-//! With [`Reading::REFERENCE`] and [`Sampler::ChaCha`] it stores what the port stores, bit for bit; a
-//! test holds it to that.
+//! With [`Reading::REFERENCE`] and [`Sampler::ChaCha`] it stores what the port stores, bit for bit;
+//! a test holds it to that.
 
 use std::ops::Range;
 

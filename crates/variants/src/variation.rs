@@ -9,7 +9,8 @@ pub use crate::simulation::{Simulation, survival_of_facets};
 
 /// How many facets the assignment's scene has.
 pub const FACETS: usize = 12;
-/// A number for each of them. Of [`FACETS`], the compiler loses its way in closures that capture it.
+/// A number for each of them. Of [`FACETS`], the compiler loses its way in closures that capture
+/// it.
 pub type PerFacet = [f32; 12];
 
 /// What decides whether a photon is scattered.
@@ -155,8 +156,8 @@ pub struct Variation {
     pub storage: Storage,
     /// Whether u1 and u2 come again as the next numbers of the path.
     pub repeats_numbers: bool,
-    /// Whether photons leave along the normal where t and b are not numbers, as where a safe normalisation leaves
-    /// them at zero.
+    /// Whether photons leave along the normal where t and b are not numbers, as where a safe
+    /// normalisation leaves them at zero.
     pub zero_frame: bool,
     /// Whether normals point to the other side.
     pub flipped_normal: bool,
@@ -190,7 +191,8 @@ impl Variation {
         self.storage.first() == 0
     }
 
-    /// Whether photons get below surfaces, or meet those they leave: a scattered direction may point there.
+    /// Whether photons get below surfaces, or meet those they leave: a scattered direction may
+    /// point there.
     pub fn goes_below(&self) -> bool {
         self.flipped_normal
             || self.reading.tangent_basis == TangentBasis::Transposed

@@ -23,8 +23,8 @@ use report::both_precisions::double::PrecisionTracer;
 use variants::reading::Reading;
 use variants::run::Run;
 
-/// Whether `judgement` of `count` photons has nothing impossible in it, and on the handout's surfaces
-/// what the oracle of the unmoved scene expects.
+/// Whether `judgement` of `count` photons has nothing impossible in it, and on the handout's
+/// surfaces what the oracle of the unmoved scene expects.
 fn check(judgement: &Judgement, count: u64, case: &str) {
     assert_eq!(judgement.impossible(), [0; 3], "{case}: self-hits, leaks, under boxes");
     let expected = ExpectedTable::of_assignment8();
@@ -62,8 +62,8 @@ fn whole_scene_moved_far_and_scaled() {
     check_moved(1e4, DVec3::new(-1e5, 1e5, 3e4), 24, 1_000_000);
 }
 
-/// A detail in the middle of a wide scene has all the digits of f32, so nothing at all may change but by
-/// the length of the offset.
+/// A detail in the middle of a wide scene has all the digits of f32, so nothing at all may change
+/// but by the length of the offset.
 #[test]
 fn small_detail_of_a_wide_scene() {
     let count = 1_000_000;
@@ -78,10 +78,10 @@ fn small_detail_of_a_wide_scene() {
     }
 }
 
-/// Away from the middle, coordinates have fewer digits: `rounding` is their last place, in units of the
-/// handout's scene. A photon that lands as near to an edge may come out on its other side, and rays start
-/// a few such places off. Of a million photons, 10^4 times `rounding` may come from behind, and counts
-/// differ by 10^5 times `rounding`, beside the few of the test above.
+/// Away from the middle, coordinates have fewer digits: `rounding` is their last place, in units of
+/// the handout's scene. A photon that lands as near to an edge may come out on its other side, and
+/// rays start a few such places off. Of a million photons, 10^4 times `rounding` may come from
+/// behind, and counts differ by 10^5 times `rounding`, beside the few of the test above.
 #[test]
 fn small_detail_away_from_the_middle() {
     let count = 1_000_000;
@@ -106,16 +106,17 @@ fn small_detail_away_from_the_middle() {
     }
 }
 
-/// A point on a wide facet has no more digits than its width leaves, also beside a detail that stands on
-/// it. Held against f64, photon by photon, the share of photons with another path is less than the last
-/// place of the width, in units of the handout's scene.
+/// A point on a wide facet has no more digits than its width leaves, also beside a detail that
+/// stands on it. Held against f64, photon by photon, the share of photons with another path is less
+/// than the last place of the width, in units of the handout's scene.
 #[test]
 fn small_detail_on_a_wide_plain() {
     let count = 300_000;
     for extent in [20.0, 200.0, 2e3, 2e4] {
         let run = handout_on_a_plain(extent, DVec3::ZERO, 34, count);
         let scene = run.scene();
-        // In f64 the scene is traced at the size of the handout's, where the framework's offset is right.
+        // In f64 the scene is traced at the size of the handout's, where the framework's offset is
+        // right.
         let unit = run.placement.length_to_world(1.0);
         let triangles = scene.triangles().iter().map(|triangle| Triangle {
             vertices: triangle.vertices.map(|vertex| vertex * unit),
@@ -143,7 +144,8 @@ fn small_detail_on_a_wide_plain() {
     }
 }
 
-/// Also the oracle must see a small thing on a wide floor, where all of a density is in a narrow peak.
+/// Also the oracle must see a small thing on a wide floor, where all of a density is in a narrow
+/// peak.
 #[test]
 fn expected_hits_on_a_wide_plain() {
     let count = 1_000_000;
@@ -223,8 +225,9 @@ fn judge_misses_nothing() {
     }
 }
 
-/// What the tests above hold, for 10^8 photons each: `cargo test --release -- --ignored --nocapture`.
-/// Every case has a seed of its own, since the paths of a moved scene are those at home.
+/// What the tests above hold, for 10^8 photons each: `cargo test --release -- --ignored
+/// --nocapture`. Every case has a seed of its own, since the paths of a moved scene are those at
+/// home.
 #[test]
 #[ignore = "takes many minutes"]
 fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
@@ -251,7 +254,8 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
         run.renderer.seed = seed;
         let start = Instant::now();
         let judgement = Judge::new(&run).judge(0..PHOTONS);
-        // One ray left the light for every photon, and another a surface for every one that was stored.
+        // One ray left the light for every photon, and another a surface for every one that was
+        // stored.
         let stored: u64 = judgement.stored.iter().sum();
         let seconds = start.elapsed().as_secs_f64();
         let impossible = judgement.impossible();
@@ -261,8 +265,8 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
     }
 }
 
-/// The bound on what moving does: nothing to the paths, and to a position in the list at most half a
-/// unit in the last place of its world coordinates.
+/// The bound on what moving does: nothing to the paths, and to a position in the list at most half
+/// a unit in the last place of its world coordinates.
 #[test]
 fn moving_rounds_positions_once() {
     let at_home = list(&handout(26, 100_000));

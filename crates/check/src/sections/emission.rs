@@ -57,7 +57,8 @@ fn angles(rand: &mut dyn FnMut() -> f32) -> Vec3 {
 const LAWS: [Law; 5] = [
     Law {
         name: "cube-directions",
-        what: "directions come from the whole cube, not from the sphere: there are too many towards its \
+        what: "directions come from the whole cube, not from the sphere: there are too many \
+               towards its \
                corners",
         advice: REJECT,
         draw: cube,
@@ -118,7 +119,8 @@ fn judge_start(rays: &[[Vec3; 2]], verdict: &mut Verdict) {
     let first = rays.iter().find(|ray| !ray[0].abs_diff_eq(LIGHT, 1e-2));
     if let Some([from, _]) = first {
         let found = format!(
-            "{elsewhere} of {} rays do not start at the light: the light is at {}, the first of them starts \
+            "{elsewhere} of {} rays do not start at the light: the light is at {}, the first of \
+             them starts \
              at {}",
             rays.len(),
             vector(LIGHT),
@@ -144,7 +146,8 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
     let first = directions[0];
     if directions.iter().all(|direction| direction.abs_diff_eq(first, 1e-6)) {
         let found = format!("all {total} directions are the same, {}", vector(first));
-        let advice = "Call ray.SetRayDirection with random numbers drawn anew in every call; dividing \
+        let advice = "Call ray.SetRayDirection with random numbers drawn anew in every call; \
+                      dividing \
                       two integers, rand() / RAND_MAX, gives 0.";
         verdict.fault(Some("same-direction"), found, advice);
         return false;
@@ -162,7 +165,8 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
         let [least, most] = [f64::min, f64::max]
             .map(|pick| lengths.iter().copied().reduce(pick).unwrap_or_default());
         let found = format!(
-            "{other} of {total} directions are not unit vectors: their lengths go from {least:.2} to \
+            "{other} of {total} directions are not unit vectors: their lengths go from {least:.2} \
+             to \
              {most:.2}"
         );
         let advice = "Normalise the vector before you hand it to SetRayDirection, which does not.";
@@ -184,7 +188,8 @@ fn judge_law(directions: &[Vec3], verdict: &mut Verdict) {
     let above = directions.iter().filter(|direction| direction.z > 0.0).count();
     let is_half = above == 0 || above == directions.len();
     let found = format!(
-        "directions are not even over the sphere: their mean is ({x:.3}, {y:.3}, {z:.3}), where (0, 0, 0) is \
+        "directions are not even over the sphere: their mean is ({x:.3}, {y:.3}, {z:.3}), where \
+         (0, 0, 0) is \
          due, and {above} of {} go up",
         directions.len()
     );
@@ -238,14 +243,16 @@ fn judge_scripted(observed: &Observed, verdict: &mut Verdict) {
         && direction.abs_diff_eq(second, 1e-3)
     {
         verdict.remarks.push(
-            "a point exactly on the sphere is drawn again; the handout keeps it. It makes no difference."
+            "a point exactly on the sphere is drawn again; the handout keeps it. It makes no \
+             difference."
                 .to_owned(),
         );
     }
     let zero = observed.step(Step::EmitZero).and_then(|log| log.calls.first()?.emitted);
     if zero.is_some_and(|ray| !ray[1].is_finite()) {
         verdict.remarks.push(
-            "the point (0, 0, 0) gives a direction of NaN: draw again there, too. It hardly ever happens."
+            "the point (0, 0, 0) gives a direction of NaN: draw again there, too. It hardly ever \
+             happens."
                 .to_owned(),
         );
     }

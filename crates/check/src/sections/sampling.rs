@@ -19,7 +19,8 @@ const LAWS: [Law; 7] = [
     Law {
         name: "uniform-hemisphere",
         what: "directions are uniform over the hemisphere, not in proportion to the cosine",
-        advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of the disk, lifted \
+        advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of \
+                 the disk, lifted \
                  to the hemisphere.",
         squared_sine: |u| 1.0 - u * u,
     },
@@ -69,7 +70,8 @@ pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
     if total < FEWEST {
         if observed.death(Step::Floor).is_none() {
             verdict.not_reached(format!(
-                "only {total} photons scatter from a floor with P_r = 0.5, so no direction can be judged"
+                "only {total} photons scatter from a floor with P_r = 0.5, so no direction can be \
+                 judged"
             ));
         }
         return verdict.finish(observed, "TracePhoton", &[Step::Floor]);
@@ -147,7 +149,8 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
         let (x, y): (Vec<_>, Vec<_>) =
             rays.iter().map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y))).unzip();
         let found = format!(
-            "directions are not even around the normal: the means of x and y are {:.3} and {:.3}, where 0 is due",
+            "directions are not even around the normal: the means of x and y are {:.3} and {:.3}, \
+             where 0 is due",
             mean(&x),
             mean(&y)
         );

@@ -22,7 +22,8 @@ const STEPS: [Step; 9] = [
 ];
 
 const MAXIMUM: &str = "Equation (1): P_r = max(d_r, d_g, d_b).";
-const ROULETTE: &str = "Scatter only if a new random number in [0, 1) is less than P_r, which equation (1) takes from \
+const ROULETTE: &str = "Scatter only if a new random number in [0, 1) is less than P_r, which \
+                        equation (1) takes from \
     the material that was hit; do nothing otherwise.";
 
 /// A rule for the chance to scatter.
@@ -90,7 +91,8 @@ const RULES: [Rule; 13] = [
     },
     Rule {
         name: "squared-roulette",
-        what: "photons scatter with the square of P_r: two numbers must be below it, or P_r is multiplied twice",
+        what: "photons scatter with the square of P_r: two numbers must be below it, or P_r is \
+               multiplied twice",
         advice: ROULETTE,
         chance: |d| d.max_element() * d.max_element(),
     },
@@ -138,7 +140,8 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         }
     } else if scattered == 0 {
         let found = format!("no photon scatters, of {tried} that hit walls with P_r from 0 to 1");
-        let advice = "Draw a random number in [0, 1); if it is less than P_r, call TracePhoton with the new ray.";
+        let advice = "Draw a random number in [0, 1); if it is less than P_r, call TracePhoton \
+                      with the new ray.";
         verdict.fault(Some("never-scatters"), found, advice);
     } else {
         let is_first_right = judge_rule(&walls, &mut verdict);
@@ -214,7 +217,8 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
             return;
         }
         let found = format!(
-            "at hit number {hit} of a path, {count} of {total} photons scatter where P_r = 0.5; at the first hit the \
+            "at hit number {hit} of a path, {count} of {total} photons scatter where P_r = 0.5; at \
+             the first hit the \
              part is right"
         );
         let advice = "Let the same roulette decide at every hit, with a new random number.";
@@ -241,12 +245,14 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
     let sigma = (0.25 / far.0.max(1.0) + 0.25 / near.0.max(1.0)).sqrt();
     if far.0 > 50.0 && near.0 > 50.0 && (far.1 - near.1).abs() > SIGMAS * sigma {
         let found = format!(
-            "whether a photon scatters depends on its last direction: {:.0} % of those near the normal do, and \
+            "whether a photon scatters depends on its last direction: {:.0} % of those near the \
+             normal do, and \
              {:.0} % of the others",
             100.0 * near.1,
             100.0 * far.1
         );
-        let advice = "Draw a new random number for every roulette; hand a generator by reference, not by value.";
+        let advice = "Draw a new random number for every roulette; hand a generator by reference, \
+                      not by value.";
         verdict.fault(Some("numbers-again"), found, advice);
     }
 }

@@ -25,7 +25,8 @@ const STEPS: [Step; 9] = [
 
 const IN_EVERY_CALL: &str =
     "Call TracePhoton for the scattered ray in every call, not only in the first.";
-const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' grow with every \
+const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
+                          grow with every \
     call of TracePhoton.";
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
@@ -59,7 +60,8 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
     }
     if STEPS.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
         verdict.remarks.push(
-            "TracePhoton takes other arguments than the framework's, so paths that start with two elements \
+            "TracePhoton takes other arguments than the framework's, so paths that start with two \
+             elements \
              were not tried"
                 .to_owned(),
         );
@@ -71,7 +73,8 @@ fn judge_first(calls: &[Call], verdict: &mut Verdict) {
     let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
     if stored > 0 {
         let found = format!(
-            "{stored} photons are stored in {} calls where the path has a size of 1: they come directly \
+            "{stored} photons are stored in {} calls where the path has a size of 1: they come \
+             directly \
              from the light",
             calls.len()
         );
@@ -87,7 +90,8 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
         let none = with_hit.iter().filter(|call| call.stored.is_empty()).count();
         if none > 0 {
             let found = format!(
-                "nothing is stored in {none} of {} calls where the path has a size of {path} and the wall \
+                "nothing is stored in {none} of {} calls where the path has a size of {path} and \
+                 the wall \
                  is black",
                 with_hit.len()
             );
@@ -96,7 +100,8 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
             let (name, advice) = if stores_third {
                 (
                     "third-hit-on",
-                    "The light is the first entry of 'path': store where its size is larger than 1, not 2.",
+                    "The light is the first entry of 'path': store where its size is larger than \
+                     1, not 2.",
                 )
             } else if stores_the_scattered {
                 (
@@ -132,7 +137,8 @@ fn repeats(call: &Call) -> bool {
 fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     let ends_at_second = |call: &Call| call.hits().count() == 2 && call.rays() == 2;
     if !calls.is_empty() && calls.iter().all(ends_at_second) {
-        let found = "all paths end at the second hit in a closed white cube where remainingBounces starts \
+        let found = "all paths end at the second hit in a closed white cube where remainingBounces \
+                     starts \
                      with 5; 6 hits are due";
         verdict.fault(Some("first-bounce-only"), found.to_owned(), IN_EVERY_CALL);
     }
@@ -146,7 +152,8 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     let first_stored = calls.iter().filter(|call| stores_first(call)).count();
     if first_stored > 0 && !has_fault(verdict, "direct-stored") {
         let found = format!(
-            "the first hit of the path is stored in {first_stored} of {} calls: it comes directly from the \
+            "the first hit of the path is stored in {first_stored} of {} calls: it comes directly \
+             from the \
              light",
             calls.len()
         );
@@ -158,7 +165,8 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     }
     if stored == 0 {
         let found = format!(
-            "no photon is stored that bounces in a closed cube, in {hits} later hits: the path does not grow"
+            "no photon is stored that bounces in a closed cube, in {hits} later hits: the path \
+             does not grow"
         );
         let advice = "Add an element to 'path' before TracePhoton calls itself.";
         verdict.fault(Some("path-does-not-grow"), found, advice);
@@ -168,7 +176,8 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     let without = second.clone().filter(|call| lacks_second(call)).count();
     if without > 0 {
         let found = format!(
-            "the second hit of the path is not stored in {without} of {} calls; the first that is stored comes \
+            "the second hit of the path is not stored in {without} of {} calls; the first that is \
+             stored comes \
              later",
             second.count()
         );
@@ -244,7 +253,8 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     let is_told = verdict.faults.iter().any(|fault| fault.name == Some("first-bounce-only"));
     if all_same && !missed && !is_told && (2..1001).contains(&count) {
         let found = format!(
-            "all paths end after {count} hits in a closed white cube where remainingBounces starts with \
+            "all paths end after {count} hits in a closed white cube where remainingBounces starts \
+             with \
              1000; 1001 are due"
         );
         let (name, advice) = match count {

@@ -19,7 +19,8 @@ const FEW: f64 = 1e-3;
 
 const COLUMNS: &str =
     "The columns of the matrix are t, b and n, in this order; glm::mat3(t, b, n) takes columns.";
-const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the absolute value \
+const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: \
+                    compare the absolute value \
     with your threshold.";
 
 pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
@@ -48,7 +49,8 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
         if not_finite > 0 {
             if sampling_is_finite {
                 let found = format!(
-                    "{not_finite} of {total} directions are not finite numbers where the normal is {normal}"
+                    "{not_finite} of {total} directions are not finite numbers where the normal is \
+                     {normal}"
                 );
                 let (name, advice) = if is_along_x {
                     (Some("nan-frame"), NAN_WALL)
@@ -67,7 +69,8 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
         let all_but_few = along as f64 > 0.95 * total as f64;
         if sampling_spreads && all_but_few {
             let found = format!(
-                "{along} of {total} photons leave along the normal where it is {normal}: t and b have no length"
+                "{along} of {total} photons leave along the normal where it is {normal}: t and b \
+                 have no length"
             );
             let name = is_along_x.then_some("no-absolute-value");
             let advice = if normal.x < -0.999 { WALL } else { PARALLEL };
@@ -117,7 +120,8 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
         Some(Frame::HalfAsWritten) => (
             Some("half-normalised"),
             "b is normalised, and t is not",
-            "Normalise both t and b, or neither: one of them alone squeezes directions to one side.",
+            "Normalise both t and b, or neither: one of them alone squeezes directions to one \
+             side.",
         ),
         Some(Frame::OtherOrder) => {
             (Some("permuted-frame"), "the normal is not the third column of the matrix", COLUMNS)
@@ -127,10 +131,13 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
     verdict.fault(name, format!("{what}: {seen}"), advice);
 }
 
-const NAN_WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, t is (0, 0, 0), and \
+const NAN_WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, \
+                        t is (0, 0, 0), and \
     normalising it gives NaN: compare the absolute value with your threshold.";
-const PARALLEL: &str = "Where the normal is close to parallel with (1, 0, 0), take another vector, such as (0, 1, 0), in equation (7).";
-const FRAME: &str = "t = n x (1, 0, 0) and b = n x t, equations (7) and (8); the matrix with the columns t, b and n turns \
+const PARALLEL: &str = "Where the normal is close to parallel with (1, 0, 0), take another vector, \
+                        such as (0, 1, 0), in equation (7).";
+const FRAME: &str = "t = n x (1, 0, 0) and b = n x t, equations (7) and (8); the matrix with the \
+                     columns t, b and n turns \
     the sample into world space.";
 
 /// The mean direction over a wall, and how many go below it.
@@ -140,7 +147,8 @@ fn seen(normal: Vec3, rays: &[Scattered]) -> String {
     let below = finite().filter(|direction| direction.dot(normal) < 0.0).count();
     let due = normal * (2.0 / 3.0);
     format!(
-        "where the normal is {}, the mean direction is {} and about {} is due; {below} of {} go below the surface",
+        "where the normal is {}, the mean direction is {} and about {} is due; {below} of {} go \
+         below the surface",
         short(normal),
         short(mean),
         short(due),
@@ -215,14 +223,16 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
                 format!("{length:.0e}")
             }
         );
-        let advice = "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the normal, as \
+        let advice = "Start the scattered ray a little above the surface: the hit point plus 1e-5 \
+                      times the normal, as \
                       the framework does for shadow rays.";
         verdict.fault(Some("no-offset"), found, advice);
         return;
     }
     if length < SHORTEST {
         verdict.remarks.push(
-            "the scattered ray starts at the point that was hit, and still does not meet the surface it leaves"
+            "the scattered ray starts at the point that was hit, and still does not meet the \
+             surface it leaves"
                 .to_owned(),
         );
         return;
@@ -249,7 +259,8 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
     verdict.readings.push(format!("offset {rounded:e} {along}"));
     if length > LONGEST {
         verdict.remarks.push(format!(
-            "the offset of {rounded:e} is large: near edges, photons start behind another surface; 1e-5 is enough"
+            "the offset of {rounded:e} is large: near edges, photons start behind another surface; \
+             1e-5 is enough"
         ));
     }
 }

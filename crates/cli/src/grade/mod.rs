@@ -40,21 +40,26 @@ own, but with several in the folders of at least two students, is a class: each 
 submission. Say --class or --submission where a folder could be both. What is wrong with a file is \
 in its grade, and stops no other.
 
-Of several lists or pictures in one folder, that called photons or assignment8 is judged, or any if all \
+Of several lists or pictures in one folder, that called photons or assignment8 is judged, or any \
+if all \
 are the same, and what is left out is remarked; else they are not judged.
 
-A SUBMISSION that does not exist is no student's fault: the others are graded, then it is named, with \
+A SUBMISSION that does not exist is no student's fault: the others are graded, then it is named, \
+with \
 exit code 2.
 
-Several submissions: text and JSON go to one output; gradescope and html write a file for each into \
+Several submissions: text and JSON go to one output; gradescope and html write a file for each \
+into \
 the folder --out, html also an index.html.
 
 Policy: a JSON object that gives scores, each of which may be left out, by default
   { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \
 \"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
 'undecided' is for lists with too few photons to tell: look at them yourself. 'plausible' is for \
-incorrect photons that are finite, on surfaces and indirect only. 'misreadings' gives incorrect ones \
-with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' \
+incorrect photons that are finite, on surfaces and indirect only. 'misreadings' gives incorrect \
+ones \
+with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. \
+'sections' \
 gives the points of each section that 'check' finds right, by its title.
 
 Exit codes: 0 graded, whatever the grades; 2 could not be carried out.")]
@@ -77,7 +82,8 @@ pub struct GradeArgs {
     #[arg(long, value_name = "N", default_value_t = assignment8::MAX_PHOTON_BOUNCES,
           allow_negative_numbers = true, value_parser = values::whole(0_i32, 1000))]
     max_bounces: i32,
-    /// The seed that submissions used, if they draw the reference's random numbers; others need none
+    /// The seed that submissions used, if they draw the reference's random numbers; others need
+    /// none
     #[arg(long, value_name = "N", default_value_t = assignment8::SEED,
           allow_negative_numbers = true, value_parser = values::whole(0, u64::MAX))]
     seed: u64,

@@ -72,7 +72,7 @@ pub fn files() -> Vec<KitFile> {
         KitFile::new("tests/assignment.rs", all_tests()),
     ];
     for (path, content) in PORT {
-        if *path == "Cargo.lock" || path.starts_with("tests/mutations") {
+        if *path == "Cargo.lock" || is_of_this_project(path) {
             continue;
         }
         let of_file = BLANKS.iter().filter(|blank| blank.file == *path);
@@ -83,6 +83,11 @@ pub fn files() -> Vec<KitFile> {
         files.push(KitFile::new(path, content));
     }
     files
+}
+
+/// Whether the file `path` of the port tests the project, not the assignment.
+fn is_of_this_project(path: &str) -> bool {
+    path.starts_with("tests/mutations") || path == "tests/readme.rs"
 }
 
 /// The text of a file of the port.
@@ -144,7 +149,7 @@ fn all_tests() -> String {
         else {
             continue;
         };
-        if !name.contains('/') {
+        if !name.contains('/') && !is_of_this_project(path) {
             text += &format!("#[path = \"{name}.rs\"]\nmod {name};\n");
         }
     }

@@ -1,5 +1,5 @@
-//! Lists of a program that shares nothing with the port, right and wrong in many ways, are judged and
-//! named as `cases.csv` says.
+//! Lists of a program that shares nothing with the port, right and wrong in many ways, are judged
+//! and named as `cases.csv` says.
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -28,8 +28,8 @@ pub fn fixed(part: &str, numbers: &[f64]) -> Claim {
     claim(part, numbers.iter().copied().map(Exact))
 }
 
-/// Asserts that each line of section `number` that has a number belongs to one of `claims`, that each
-/// claim has its line, and that the numbers are those.
+/// Asserts that each line of section `number` that has a number belongs to one of `claims`, that
+/// each claim has its line, and that the numbers are those.
 pub fn assert_section(number: usize, claims: &[Claim]) {
     let page = &REPORT["report.md"];
     let section = page.split("\n## ").nth(number).unwrap();

@@ -1,5 +1,5 @@
-//! The report: whole, and every number of its sections 1 to 4 follows from its data. Section 5 names
-//! the machine, versions, seeds and commands.
+//! The report: whole, and every number of its sections 1 to 4 follows from its data. Section 5
+//! names the machine, versions, seeds and commands.
 
 mod claims;
 mod data;

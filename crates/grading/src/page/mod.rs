@@ -26,13 +26,14 @@ use profile::{Axis, LAST_BOUNCE, Profile};
 use variants::variation::{FACETS, Variation};
 
 const STYLE: &str = include_str!("style.css");
-/// Keeps the page from loading anything, should ever something of a submission get through unescaped.
+/// Keeps the page from loading anything, should ever something of a submission get through
+/// unescaped.
 const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
 /// A larger picture is not shown.
 const MOST_BYTES: u64 = 8 << 20;
 const LONGEST_EDGE: u32 = 4096;
-/// With how many photons the curves of a page are measured: for the handout, and for a misreading, which
-/// takes longer to trace.
+/// With how many photons the curves of a page are measured: for the handout, and for a misreading,
+/// which takes longer to trace.
 const PHOTONS_FOR_CURVES: u64 = 1_000_000;
 const PHOTONS_FOR_MISREADINGS: u64 = 300_000;
 
@@ -41,7 +42,7 @@ pub struct Pages<'a> {
     expectations: &'a Expectations,
     policy: &'a Policy,
     plain: OnceLock<RgbImage>,
-    /// For one photon sent out.
+    /// For one photon emitted.
     profiles: Mutex<Vec<(Variation, Profile)>>,
 }
 
@@ -83,12 +84,13 @@ impl<'a> Pages<'a> {
                 p {
                     (stored) " photons stored, "
                     @match (grade.emitted, list) {
-                        (Some(emitted), _) => { (emitted) " sent out." }
+                        (Some(emitted), _) => { (emitted) " emitted." }
                         (None, Some((_, judgement))) => {
-                            "which fits about " (format!("{:.0}", judgement.emitted)) " sent out. How many "
+                            "which fits about " (format!("{:.0}", judgement.emitted)) " emitted. \
+                             How many "
                             "were is not known, so their shares are judged, not their number."
                         }
-                        (None, None) => { "how many were sent out is not known." }
+                        (None, None) => { "how many were emitted is not known." }
                     }
                 }
             }
@@ -104,7 +106,7 @@ impl<'a> Pages<'a> {
                     }
                     @if let Some(confidence) = grade.misreading_confidence {
                         p.small {
-                            (format!("{:.1} % sure, among the misreadings that are known.", 100.0 * confidence))
+                            (format!("{:.1} % sure, among known misreadings.", 100.0 * confidence))
                         }
                     }
                 }
@@ -177,7 +179,10 @@ impl<'a> Pages<'a> {
         let shown = emitted.clamp(1, pictures::MOST_EMITTED);
         let figure = |address: &str, caption: &str| {
             html! {
-                figure { img src=(address) alt=(caption) width="640" height="480"; figcaption { (caption) } }
+                figure {
+                    img src=(address) alt=(caption) width="640" height="480";
+                    figcaption { (caption) }
+                }
             }
         };
         html! {
@@ -187,7 +192,9 @@ impl<'a> Pages<'a> {
             div.pictures {
                 @match &handed_in {
                     Some(Ok(address)) => { (figure(address, "The picture that was handed in")) }
-                    Some(Err(reason)) => { p { "The picture that was handed in is not shown: " (reason) "." } }
+                    Some(Err(reason)) => {
+                        p { "The picture that was handed in is not shown: " (reason) "." }
+                    }
                     None => {}
                 }
                 @if let Some(drawn) = &drawn {
@@ -195,11 +202,13 @@ impl<'a> Pages<'a> {
                 }
                 @if let Some(reference) = &reference {
                     (figure(&pictures::address(reference),
-                            &format!("The reference, {shown} photons sent out")))
+                            &format!("The reference, {shown} photons emitted")))
                 }
                 @if let (Some(drawn), Some(reference)) = (&drawn, &reference) {
-                    (figure(&pictures::address(&pictures::difference(drawn, reference, self.plain())),
-                            "The difference beyond what is usual by chance: more dots in orange, fewer in blue"))
+                    @let difference = pictures::difference(drawn, reference, self.plain());
+                    (figure(&pictures::address(&difference),
+                            "The difference beyond what is usual by chance: more dots in orange, \
+                             fewer in blue"))
                 }
             }
         }
@@ -209,7 +218,8 @@ impl<'a> Pages<'a> {
     fn profile(&self, variation: Variation, photons: u64) -> Profile {
         let kept = || self.profiles.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let known = kept().iter().find(|(other, _)| *other == variation).map(|(_, p)| p.clone());
-        // Measured without the lock: a thread that waits for others' pieces may take up another page.
+        // Measured without the lock: a thread that waits for others' pieces may take up another
+        // page.
         known.unwrap_or_else(|| {
             let max_bounces = self.expectations.signatures.max_bounces;
             let places = &self.expectations.places;
@@ -244,8 +254,10 @@ impl<'a> Pages<'a> {
         html! {
             h2 { "Photons on every face" }
             p.small {
-                "Maps: photons found in each cell divided by those expected; in orange where there are more and in "
-                "blue where there are fewer by over two standard deviations. Plots: bars are found, the black "
+                "Maps: photons found in each cell divided by those expected; in orange where there \
+                 are more and in "
+                "blue where there are fewer by over two standard deviations. Plots: bars are \
+                 found, the black "
                 "line is expected, with a grey band of two standard deviations"
                 @if misread.is_some() { "; the orange line is what the misreading leads to" }
                 ". x, y and z are the world's, z up."
@@ -256,7 +268,10 @@ impl<'a> Pages<'a> {
                     section.facet {
                         h3 { (places.name(at)) }
                         p {
-                            (format!("{:.0} found, {:.0} expected", found.facets[at], expected.facets[at]))
+                            (format!(
+                                "{:.0} found, {:.0} expected",
+                                found.facets[at], expected.facets[at]
+                            ))
                         }
                         (plot::map(facet, &axes, &found.counts.cells, &cells, &variance))
                         @for number in Axis::order(&axes) {
@@ -265,7 +280,9 @@ impl<'a> Pages<'a> {
                                 ends: axes[number].ends,
                                 found: &found.along[at][number],
                                 expected: &expected.along[at][number],
-                                misread: misread.as_ref().map(|misread| &misread.along[at][number][..]),
+                                misread: misread
+                                    .as_ref()
+                                    .map(|misread| &misread.along[at][number][..]),
                             }.svg()))
                         }
                     }
@@ -273,7 +290,8 @@ impl<'a> Pages<'a> {
                 @if has_directions(list) {
                     section.facet {
                         h3 { "Incoming directions" }
-                        p { "The cosine between the direction to the light and the normal, on all faces; what comes from behind has 0." }
+                        p { "The cosine between the direction to the light and the normal, on all \
+                             faces; what comes from behind has 0." }
                         (PreEscaped(Histogram {
                             what: "photons by cosine".to_owned(),
                             ends: [0.0, 1.0],
@@ -286,7 +304,8 @@ impl<'a> Pages<'a> {
                 @if list.columns.bounce {
                     section.facet {
                         h3 { "Bounces" }
-                        p { "1 is the first bounce after which photons are stored; the last bar has all later ones." }
+                        p { "1 is the first bounce after which photons are stored; the last bar \
+                             has all later ones." }
                         (PreEscaped(Histogram {
                             what: "photons by bounce".to_owned(),
                             ends: [0.5, LAST_BOUNCE as f64 + 0.5],
@@ -301,7 +320,8 @@ impl<'a> Pages<'a> {
     }
 }
 
-/// Whether directions to the light are given, and not one for all, as those of a ray that is never set.
+/// Whether directions to the light are given, and not one for all, as those of a ray that is never
+/// set.
 fn has_directions(list: &PhotonList) -> bool {
     let directions = || list.records.iter().map(|record| record.to_light);
     list.columns.to_light && directions().any(|direction| Some(direction) != directions().next())
@@ -343,7 +363,10 @@ fn card<'a>(finding: &'a Finding, said: &mut HashSet<&'a str>) -> Markup {
     };
     html! {
         div.card.(kind) {
-            h3 { (finding.check) @if let Some(section) = finding.section { span.section { (section) } } }
+            h3 {
+                (finding.check)
+                @if let Some(section) = finding.section { span.section { (section) } }
+            }
             dl {
                 dt { "expected" } dd { (finding.expected) }
                 dt { "found" } dd { (finding.found) }

@@ -17,7 +17,8 @@ pub const MOST_EMITTED: u64 = 20_000_000;
 const REACH: usize = 18;
 /// About how many pixels a dot has.
 const PIXELS_OF_A_DOT: f64 = 2.0;
-/// A difference of fewer standard deviations than the first has no colour, of the second the full one.
+/// A difference of fewer standard deviations than the first has no colour, of the second the full
+/// one.
 const NONE: f64 = 2.5;
 const FULL: f64 = 6.0;
 const MORE: [f64; 3] = [255.0, 140.0, 0.0];
@@ -37,7 +38,7 @@ pub fn with_dots(positions: Vec<Vec3>) -> RgbImage {
     take_picture(&renderer, Width::widest(), &camera, width, height, || ()).picture
 }
 
-/// The handout's view with the photons of the reference, `emitted` of them sent out.
+/// The handout's view with the photons of the reference, `emitted` of them emitted.
 pub fn of_the_reference(emitted: u64, max_bounces: i32) -> RgbImage {
     let mut renderer = assignment8::create_renderer(assignment8::create_scene());
     renderer.photon_count = emitted.clamp(1, MOST_EMITTED);
@@ -52,8 +53,8 @@ pub fn of_the_reference(emitted: u64, max_bounces: i32) -> RgbImage {
     with_dots(positions)
 }
 
-/// Where `submission` has more dots than `reference` (orange), and where fewer (blue), both over `plain`,
-/// which has none.
+/// Where `submission` has more dots than `reference` (orange), and where fewer (blue), both over
+/// `plain`, which has none.
 pub fn difference(submission: &RgbImage, reference: &RgbImage, plain: &RgbImage) -> RgbImage {
     let ours = Sums::of(reference, plain);
     let theirs = Sums::of(submission, plain);
@@ -72,7 +73,8 @@ pub fn difference(submission: &RgbImage, reference: &RgbImage, plain: &RgbImage)
     picture
 }
 
-/// How strong the colour is of what is `away` standard deviations from its expectation, from 0 to 1.
+/// How strong the colour is of what is `away` standard deviations from its expectation, from 0 to
+/// 1.
 pub fn strength(away: f64) -> f64 {
     ((away.abs() - NONE) / (FULL - NONE)).clamp(0.0, 1.0)
 }

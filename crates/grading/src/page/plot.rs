@@ -31,8 +31,8 @@ pub struct Histogram<'a> {
 }
 
 impl Histogram<'_> {
-    /// Bars for what was found, a line and the band of two standard deviations for what is expected, and
-    /// an orange line for the misreading.
+    /// Bars for what was found, a line and the band of two standard deviations for what is
+    /// expected, and an orange line for the misreading.
     pub fn svg(&self) -> String {
         let mut svg = String::new();
         {
@@ -94,9 +94,9 @@ impl Histogram<'_> {
     }
 }
 
-/// The cells of `facet`, the world's x or y to the right and y or z up: in each, how many times as many photons as
-/// expected it has, in colour beyond two standard deviations. `found`, `expected` and `variance` are
-/// by cell of the scene.
+/// The cells of `facet`, the world's x or y to the right and y or z up: in each, how many times as
+/// many photons as expected it has, in colour beyond two standard deviations. `found`, `expected`
+/// and `variance` are by cell of the scene.
 pub fn map(
     facet: &Facet,
     axes: &[Axis; 2],
@@ -128,7 +128,8 @@ pub fn map(
                     width=(format!("{cell_width:.1}")) height=(format!("{cell_height:.1}"))
                     fill=(if away > 0.0 { "#e69f00" } else { "#3f8fe0" })
                     fill-opacity=(format!("{:.2}", strength(away))) stroke="#999" {
-                    title { (format!("{found:.0} found, {expected:.1} expected ({away:+.1} standard deviations)")) }
+                    title { (format!("{found:.0} found, {expected:.1} expected ({away:+.1} \
+                                      standard deviations)")) }
                 }
                 text x=(format!("{:.1}", x + cell_width / 2.0))
                     y=(format!("{:.1}", y + cell_height / 2.0 + 4.0)) {

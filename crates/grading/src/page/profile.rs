@@ -1,5 +1,5 @@
-//! How photons are spread along the two axes of every facet, over bounces and over incoming directions: finer than the cells that
-//! are judged, for the eye.
+//! How photons are spread along the two axes of every facet, over bounces and over incoming
+//! directions: finer than the cells that are judged, for the eye.
 
 use std::ops::Range;
 

@@ -1,9 +1,10 @@
 //! How much of a facet shows its photons when their positions are off its plane.
 //!
-//! A pixel is red when a photon lies in the cube around its point. Photons at a distance d off a plane
-//! at right angles to an axis are in it up to d = r, half the cube's edge, and never beyond. For a plane
-//! with the normal (a, b), a > b > 0, the photons in the cube fill the part of the line at distance d
-//! that is inside a square: it shrinks from d = r (a - b) on, and is gone at d = r (a + b).
+//! A pixel is red when a photon lies in the cube around its point. Photons at a distance d off a
+//! plane at right angles to an axis are in it up to d = r, half the cube's edge, and never beyond.
+//! For a plane with the normal (a, b), a > b > 0, the photons in the cube fill the part of the line
+//! at distance d that is inside a square: it shrinks from d = r (a - b) on, and is gone at d = r (a
+//! + b).
 
 use super::view::View;
 use crate::places::Places;
@@ -11,8 +12,8 @@ use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
 /// By how much coverage may differ from what it is thought to be.
 pub const LEEWAY: f64 = 0.02;
-/// How far off their plane positions may be before coverage changes, up to where nothing is left, in
-/// world units, in steps between which it changes by three hundredths.
+/// How far off their plane positions may be before coverage changes, up to where nothing is left,
+/// in world units, in steps between which it changes by three hundredths.
 pub const STANDOFFS: [f64; 37] = {
     let mut standoffs = [0.0; 37];
     let mut at = 0;
@@ -23,8 +24,8 @@ pub const STANDOFFS: [f64; 37] = {
     standoffs
 };
 
-/// By facet in sight, the part of its photons near enough to show, where all are `standoff` off their
-/// plane, in world units.
+/// By facet in sight, the part of its photons near enough to show, where all are `standoff` off
+/// their plane, in world units.
 pub fn coverage(view: &View, places: &Places, standoff: f64) -> Vec<f64> {
     let of_facet = |facet: &usize| {
         let normal = places.facets[*facet].normal.abs();

@@ -1,8 +1,9 @@
 //! How large are the dots of a picture?
 //!
-//! Photons lie where they do on their own, so of two pixels whose cubes share nothing, one is as often
-//! red beside the other as it is alone. Where dots are larger than the handout's, the same photon makes
-//! both red: their correlation tells that dots are larger, and how far it reaches how large.
+//! Photons lie where they do on their own, so of two pixels whose cubes share nothing, one is as
+//! often red beside the other as it is alone. Where dots are larger than the handout's, the same
+//! photon makes both red: their correlation tells that dots are larger, and how far it reaches how
+//! large.
 
 use super::reading::WANTED;
 use super::view::{PIXELS, View};
@@ -13,9 +14,9 @@ use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 const FARTHEST: usize = 8;
 /// With fewer dots nothing is told of their size.
 const FEWEST_RED: usize = 200;
-/// Correlation of pixels that share nothing, from which on dots are too large. Density that differs within
-/// a patch, and paths that leave two photons side by side, come to 0.02; half as large a radius again
-/// to 0.07.
+/// Correlation of pixels that share nothing, from which on dots are too large. Density that differs
+/// within a patch, and paths that leave two photons side by side, come to 0.02; half as large a
+/// radius again to 0.07.
 const TOO_MUCH: f64 = 0.05;
 
 /// The dots of a picture, with how often each patch of the view is red.
@@ -48,13 +49,14 @@ impl<'a> DotSize<'a> {
         (count >= FEWEST_RED).then_some(Self { red, view, parts })
     }
 
-    /// Whether the dots are larger than the handout's radius makes them: to the right, and downwards.
+    /// Whether the dots are larger than the handout's radius makes them: to the right, and
+    /// downwards.
     pub fn is_too_large(&self) -> bool {
         [[1, 0], [0, 1]].into_iter().all(|step| self.beyond(step) > TOO_MUCH)
     }
 
-    /// The correlation, along one direction, of the pixels closest to each other that share nothing, less
-    /// that of pixels that are far apart.
+    /// The correlation, along one direction, of the pixels closest to each other that share
+    /// nothing, less that of pixels that are far apart.
     fn beyond(&self, step: [usize; 2]) -> f64 {
         let (mut near, mut far) = ([0.0; 2], [0.0; 2]);
         let mut last = None;
@@ -92,8 +94,10 @@ impl<'a> DotSize<'a> {
     pub fn reason(&self) -> String {
         let [wide, high] = self.extent();
         format!(
-            "its dots are too large, up to {wide} x {high} pixels: with the framework's PHOTON_DOT_RADIUS \
-             of {PHOTON_DOT_RADIUS} they are 1 or 2 pixels wide, and do not hide each other: {WANTED}, \
+            "its dots are too large, up to {wide} x {high} pixels: with the framework's \
+             PHOTON_DOT_RADIUS \
+             of {PHOTON_DOT_RADIUS} they are 1 or 2 pixels wide, and do not hide each other: \
+             {WANTED}, \
              with that radius"
         )
     }

@@ -1,4 +1,5 @@
-//! Which pixels of a picture have a dot? Those that differ from the direct light in the way of dots.
+//! Which pixels of a picture have a dot? Those that differ from the direct light in the way of
+//! dots.
 
 use image::RgbImage;
 
@@ -14,8 +15,8 @@ const ROUNDING_OF_CURVE: u8 = 3;
 const FEWEST_FULL: usize = 3;
 /// A dot raises a channel by at least this much: the framework's red raises it by 71 or more.
 const LEAST_RAISE: u8 = 20;
-/// The part of the pixels that may be neither direct light nor dot, where programs disagree on which
-/// surface is seen at its edge, or lies in shadow.
+/// The part of the pixels that may be neither direct light nor dot, where programs disagree on
+/// which surface is seen at its edge, or lies in shadow.
 const MOST_ASTRAY: f64 = 0.004;
 /// From this part on, another camera is tried.
 const FEW_ASTRAY: f64 = 0.0005;
@@ -57,8 +58,8 @@ struct Attempt {
 /// if it is asked for, the one that is shifted by half a pixel.
 ///
 /// # Errors
-/// The reason, in words, if it is not the handout's view, or cannot be told apart into direct light and
-/// dots.
+/// The reason, in words, if it is not the handout's view, or cannot be told apart into direct light
+/// and dots.
 pub fn find_dots<'a>(
     picture: &RgbImage,
     view: &'a View,
@@ -92,7 +93,8 @@ pub fn find_dots<'a>(
             .ok_or_else(|| reason(pixels, view, best.astray as f64 / surface))?;
         is_shifted = false;
     }
-    // Only red may show where no surface does: a photon that is near everything is near nothing, too.
+    // Only red may show where no surface does: a photon that is near everything is near nothing,
+    // too.
     let background = || (0..PIXELS).filter(|pixel| !view.shows_surface(*pixel));
     let is_lit = |pixel: &usize| pixels[*pixel][1..].iter().any(|channel| *channel > DARK);
     if background().filter(is_lit).count() as f64
@@ -165,7 +167,8 @@ fn take_apart(pixels: &[[u8; 3]], view: &View) -> Attempt {
             red[*at] = is_dot(*at);
             astray += usize::from(!red[*at]);
             is_full &= !red[*at] || pixels[*at][0] == 255;
-            // At a surface's edge the direct light may be another one: what is full of red is a dot.
+            // At a surface's edge the direct light may be another one: what is full of red is a
+            // dot.
             if style == Style::Raised([true, false, false]) && pixels[*at][0] == 255 {
                 red[*at] = true;
             }
@@ -201,8 +204,8 @@ fn without_direct_light(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     Some(Attempt { red, astray, remark })
 }
 
-/// Dots over direct light whose channels all went through one curve, which green and blue tell, since
-/// dots leave them as they are.
+/// Dots over direct light whose channels all went through one curve, which green and blue tell,
+/// since dots leave them as they are.
 fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     let direct: &[[u8; 3]] = view.direct.as_raw().as_chunks().0;
     let surface = || (0..PIXELS).filter(|at| view.shows_surface(*at));
@@ -220,7 +223,8 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
         .map(|(mut others, mut reds)| {
             others.sort_unstable();
             reds.sort_unstable();
-            // Dots leave green and blue as they are, and make red brighter, of not nearly all pixels.
+            // Dots leave green and blue as they are, and make red brighter, of not nearly all
+            // pixels.
             others.get(others.len() / 2).or_else(|| reds.get(reds.len() / 5)).copied()
         })
         .collect();
@@ -252,8 +256,8 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     Some(Attempt { red, astray, remark: Some(("direct light", found)) })
 }
 
-/// What `curve`, which is known at some values only, makes of `value`: between two that are known in
-/// proportion, beyond them all as far from the last as before.
+/// What `curve`, which is known at some values only, makes of `value`: between two that are known
+/// in proportion, beyond them all as far from the last as before.
 fn along(curve: &[Option<u8>], value: usize) -> Option<u8> {
     let known = |at: usize| Some((at as f64, f64::from(curve[at]?)));
     let below = (0..=value).rev().find_map(known);
@@ -281,7 +285,8 @@ fn reason(pixels: &[[u8; 3]], view: &View, astray: f64) -> String {
     let correlation = if spread > 0.0 { sum(|x, y| x * y) / spread } else { 0.0 };
     if correlation > SAME_VIEW {
         format!(
-            "it shows the handout's view, but {:.1} % of its pixels are neither direct light nor a dot, \
+            "it shows the handout's view, but {:.1} % of its pixels are neither direct light nor a \
+             dot, \
              as after JPEG compression, resizing, a change of colours or a screenshot: {WANTED}",
             100.0 * astray
         )

@@ -30,8 +30,8 @@ pub struct PictureExpectations {
 }
 
 impl PictureExpectations {
-    /// What is expected of photons that may bounce `max_bounces` times: at once for many bounces, else
-    /// measured.
+    /// What is expected of photons that may bounce `max_bounces` times: at once for many bounces,
+    /// else measured.
     pub fn new(places: &Places, max_bounces: i32) -> Self {
         let view = View::new(places);
         let signatures = if max_bounces >= MANY_BOUNCES {

@@ -1,10 +1,10 @@
 //! How many pixels are expected to be red, and how much that varies.
 //!
-//! Each of N paths turns a pixel red with a small chance p, on its own: the pixel stays as it is with
-//! the chance (1 - p)^N = exp(-N p), and two pixels both do with exp(-N (p + q - pq)), where pq is the
-//! chance that one path turns both red. From this the mean and covariance of the numbers of red
-//! pixels follow. One path turns two pixels red by one photon, if their cubes overlap, or by two, which
-//! is rare enough to be known by facet only.
+//! Each of N paths turns a pixel red with a small chance p, on its own: the pixel stays as it is
+//! with the chance (1 - p)^N = exp(-N p), and two pixels both do with exp(-N (p + q - pq)), where
+//! pq is the chance that one path turns both red. From this the mean and covariance of the numbers
+//! of red pixels follow. One path turns two pixels red by one photon, if their cubes overlap, or by
+//! two, which is rare enough to be known by facet only.
 
 use super::signature::PictureSignature;
 use super::view::{SHARES, View};
@@ -23,8 +23,8 @@ pub struct Expected {
     pub pixels: Vec<f64>,
 }
 
-/// Which part of the photons over each patch's pixels is near enough to show, by facet in sight: 1 for
-/// photons that lie on their facet.
+/// Which part of the photons over each patch's pixels is near enough to show, by facet in sight: 1
+/// for photons that lie on their facet.
 pub type Coverage = [f64];
 
 /// The number of red pixels over all cells, for `emitted` photons.
@@ -61,7 +61,8 @@ fn rates(view: &View, signature: &PictureSignature, emitted: f64, coverage: &Cov
 }
 
 impl Expected {
-    /// What is expected of the cells of `view` under the hypothesis of `signature` for `emitted` photons.
+    /// What is expected of the cells of `view` under the hypothesis of `signature` for `emitted`
+    /// photons.
     pub fn new(
         view: &View,
         signature: &PictureSignature,
@@ -110,8 +111,8 @@ impl Expected {
         expected
     }
 
-    /// What is expected of the sums of cells that have the same number in `groups`, of which there are
-    /// `count`.
+    /// What is expected of the sums of cells that have the same number in `groups`, of which there
+    /// are `count`.
     pub fn grouped(&self, groups: &[usize], count: usize) -> Self {
         let sums = |values: &[f64]| {
             let mut sums = vec![0.0; count];

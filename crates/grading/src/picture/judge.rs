@@ -25,8 +25,8 @@ const RARE: f64 = 0.01;
 pub(super) const FEWEST_RED: f64 = 10.0;
 /// When no more than this part of the pixels is left, all are red.
 const ALL_RED: f64 = 1e-3;
-/// With so many photons that less than this part of the pixels is expected to be left, nothing can be
-/// told.
+/// With so many photons that less than this part of the pixels is expected to be left, nothing can
+/// be told.
 const SATURATED: f64 = 0.05;
 /// The numbers of photons between which it is sought: with fewer or more no picture can be judged.
 pub(super) const SIZES: [f64; 2] = [10.0, 1e8];
@@ -76,7 +76,8 @@ pub(super) struct Case<'a> {
     pub(super) expectations: &'a PictureExpectations,
 }
 
-/// Judges the dots `red`, by pixel of `view`, where `emitted` photons were emitted, if that is known.
+/// Judges the dots `red`, by pixel of `view`, where `emitted` photons were emitted, if that is
+/// known.
 pub fn judge_dots(
     red: &[bool],
     view: &View,
@@ -262,8 +263,8 @@ impl Case<'_> {
         Trial { reading, standoff, tests, p_value, emitted: size, groups }
     }
 
-    /// The law of groups of cells. What cannot be known is left open by a variance along its way: the
-    /// number of photons, if it was fitted, and the exact coverage.
+    /// The law of groups of cells. What cannot be known is left open by a variance along its way:
+    /// the number of photons, if it was fitted, and the exact coverage.
     pub(super) fn law(
         &self,
         expected: &Expected,

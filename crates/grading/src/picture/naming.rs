@@ -8,13 +8,14 @@ use crate::naming::{Explanation, bounces_show, most_likely};
 use crate::statistics::{Law, Residual, chi_squared_tail, fit, grouped};
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
 
-/// By which part of itself the density of a known misreading may be off, of which the student's program may have another form.
+/// By which part of itself the density of a known misreading may be off, of which the student's
+/// program may have another form.
 const LEEWAY_OF_MISREADING: f64 = 0.02;
 /// Self-hits depend on rounding, from facet to facet.
 const LEEWAY_OF_SELF_HITS: f64 = 0.25;
-/// A misreading with which the picture is less likely than this does not explain it alone: two together
-/// often look a little like one. Pictures with this one alone are as rare, but for self-hits, whose law is only
-/// roughly known.
+/// A misreading with which the picture is less likely than this does not explain it alone: two
+/// together often look a little like one. Pictures with this one alone are as rare, but for
+/// self-hits, whose law is only roughly known.
 const LEAST_LIKELY: f64 = 0.02;
 
 impl Case<'_> {
@@ -68,7 +69,8 @@ impl Case<'_> {
         }))
     }
 
-    /// How well `hypothesis` explains the picture, whose cells are joined into `groups`, so many of them.
+    /// How well `hypothesis` explains the picture, whose cells are joined into `groups`, so many of
+    /// them.
     fn hold_against(
         &self,
         hypothesis: &Hypothesis,
@@ -87,7 +89,8 @@ impl Case<'_> {
         Explanation::new(hypothesis, fit)
     }
 
-    /// The law of groups of cells under a misreading, of which the student's program may have another form.
+    /// The law of groups of cells under a misreading, of which the student's program may have
+    /// another form.
     fn law_of_misreading(
         &self,
         hypothesis: &Hypothesis,

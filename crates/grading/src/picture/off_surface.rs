@@ -36,8 +36,8 @@ impl Case<'_> {
         sums
     }
 
-    /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to expect:
-    /// they are the first to lose some where positions are off.
+    /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to
+    /// expect: they are the first to lose some where positions are off.
     pub(super) fn may_be_off_surface(&self, trial: &Trial) -> bool {
         let signature = &self.expectations.signatures.fair[trial.reading];
         let at_rest = vec![1.0; self.view.facets.len()];
@@ -47,8 +47,9 @@ impl Case<'_> {
         askew * straight_mean < straight * askew_mean || straight < 0.01 * straight_mean
     }
 
-    /// How far off positions may be: as far as leaves the dots that there are on the askew facets, for as
-    /// many photons as the others show. Where these show none, nothing but the number itself tells.
+    /// How far off positions may be: as far as leaves the dots that there are on the askew facets,
+    /// for as many photons as the others show. Where these show none, nothing but the number itself
+    /// tells.
     fn standoffs(&self, reading: usize) -> Vec<f64> {
         let signature = &self.expectations.signatures.fair[reading];
         let expect = |size: f64, standoff: f64| {

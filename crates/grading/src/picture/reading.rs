@@ -65,8 +65,10 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     let (width, height) = (number(0), number(4));
     if (width, height) != (WIDTH, HEIGHT) {
         return Err(format!(
-            "it has {width} x {height} pixels, where the handout's has {WIDTH} x {HEIGHT}: it was made \
-             with another size, or resized, or is a screenshot. Dots are judged at that size alone: {WANTED}"
+            "it has {width} x {height} pixels, where the handout's has {WIDTH} x {HEIGHT}: it was \
+             made \
+             with another size, or resized, or is a screenshot. Dots are judged at that size \
+             alone: {WANTED}"
         ));
     }
     if chunks(bytes).any(|chunk| chunk.get(4..8) == Some(b"acTL")) {

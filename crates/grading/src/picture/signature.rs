@@ -22,8 +22,8 @@ const PIECE: u64 = 1 << 16;
 const SEED: u64 = 0x9_2019;
 /// Photons of one path that are closer together than this, in world units, show as one dot.
 const SAME_PLACE: f32 = 1e-4;
-/// Without an offset, which part of the scattered photons meets its own surface depends on rounding:
-/// on facets that are at right angles to an axis, and on the others.
+/// Without an offset, which part of the scattered photons meets its own surface depends on
+/// rounding: on facets that are at right angles to an axis, and on the others.
 const SELF_HITS: ([f32; 3], [f32; 3]) = ([0.1, 0.25, 0.4], [0.3, 0.45, 0.6]);
 
 /// How often the photons of one hypothesis turn pixels red.
@@ -99,8 +99,8 @@ impl PictureSignatures {
     }
 }
 
-/// All misreadings that a picture can show: those of lists, and photons without an offset, of which a
-/// picture does not show how many lie at the same place.
+/// All misreadings that a picture can show: those of lists, and photons without an offset, of which
+/// a picture does not show how many lie at the same place.
 pub fn known_misreadings(places: &Places) -> Vec<Hypothesis> {
     let mut all = misreadings();
     for straight in SELF_HITS.0 {
@@ -111,8 +111,8 @@ pub fn known_misreadings(places: &Places) -> Vec<Hypothesis> {
     all
 }
 
-/// All pairs of misreadings that a picture can show: those of lists, and photons without an offset together with
-/// another one.
+/// All pairs of misreadings that a picture can show: those of lists, and photons without an offset
+/// together with another one.
 pub fn known_pairs(places: &Places) -> Vec<Hypothesis> {
     let [_, straight, _] = SELF_HITS.0;
     let [_, askew, _] = SELF_HITS.1;

@@ -56,7 +56,8 @@ pub struct Row {
     pub named: BTreeMap<&'static str, usize>,
 }
 
-/// What each simulated picture does wrong: the ways to a misreading one after another, seed by seed.
+/// What each simulated picture does wrong: the ways to a misreading one after another, seed by
+/// seed.
 pub fn misread(id: &str, seed: u64) -> Option<Hypothesis> {
     let ways: Vec<Hypothesis> =
         misreadings().into_iter().filter(|hypothesis| hypothesis.id == id).collect();
@@ -131,8 +132,8 @@ pub struct FalseAlarms {
     pub below: [usize; 4],
 }
 
-/// Judges correct pictures of `emitted` photons, one for each of `seeds`, of all fair readings in turn;
-/// where `is_off`, with positions up to 4e-3 off. Farther off, no dot is left.
+/// Judges correct pictures of `emitted` photons, one for each of `seeds`, of all fair readings in
+/// turn; where `is_off`, with positions up to 4e-3 off. Farther off, no dot is left.
 pub fn false_alarms(
     seeds: std::ops::Range<u64>,
     emitted: u64,

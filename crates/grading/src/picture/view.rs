@@ -1,5 +1,5 @@
-//! What the handout's camera sees: for every pixel the point it shows, and which part of which facet
-//! that is.
+//! What the handout's camera sees: for every pixel the point it shows, and which part of which
+//! facet that is.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,14 @@ use photon_mapping::scene::camera::PerspectiveCamera;
 use photon_mapping::scene::ray::IntersectionState;
 
 /// Pixels closer than this to an edge of their facet, or to another facet, in world units, are not
-/// looked at: the cube of a dot reaches over edges, and the photons there may belong to either facet.
+/// looked at: the cube of a dot reaches over edges, and the photons there may belong to either
+/// facet.
 const MARGIN: f64 = 0.012;
 /// Patches are the pixels of one facet in one square of the picture of so many pixels a side: small
 /// enough for the density of photons to be the same all over it.
 const PATCH: usize = 16;
-/// Cubes around pixels that are farther apart than this, in pixels, share nothing: the closest facet
-/// is 3.1 units away, where pixels are 0.003 apart, and a cube is 0.006 wide.
+/// Cubes around pixels that are farther apart than this, in pixels, share nothing: the closest
+/// facet is 3.1 units away, where pixels are 0.003 apart, and a cube is 0.006 wide.
 const NEIGHBOURS: isize = 2;
 /// How finely the parts that two cubes share are told apart.
 pub const SHARES: usize = 16;
@@ -49,8 +50,8 @@ pub struct Patch {
 pub struct Overlap {
     /// The patches.
     pub patches: [usize; 2],
-    /// How many ordered pairs share a part of `(at + 0.5) / SHARES` of the facet in their cubes; the
-    /// last entry has the pixels paired with themselves, which share all.
+    /// How many ordered pairs share a part of `(at + 0.5) / SHARES` of the facet in their cubes;
+    /// the last entry has the pixels paired with themselves, which share all.
     pub pairs: [u32; SHARES + 1],
 }
 
@@ -82,8 +83,8 @@ pub struct View {
 /// What one pixel shows: a point of a facet, and its direct light.
 type Seen = (Option<(Vec3, usize)>, [u8; 3]);
 
-/// Where `point` appears in the picture of `camera`, from (0, 0) in the top left corner to (1, 1); `None`
-/// for a point that is not in front of the camera.
+/// Where `point` appears in the picture of `camera`, from (0, 0) in the top left corner to (1, 1);
+/// `None` for a point that is not in front of the camera.
 fn project(camera: &PerspectiveCamera, point: Vec3) -> Option<[f32; 2]> {
     let from = point - camera.position;
     let depth = from.dot(camera.forward);
@@ -240,8 +241,8 @@ impl View {
         }
     }
 
-    /// The part of its facet in the cube around `pixel` that is in the one around `other`, too, where both
-    /// show the facet of `patch`.
+    /// The part of its facet in the cube around `pixel` that is in the one around `other`, too,
+    /// where both show the facet of `patch`.
     pub fn share(&self, pixel: usize, other: usize, patch: usize) -> f64 {
         let edge = 2.0 * f64::from(PHOTON_DOT_RADIUS);
         let apart = (self.points[pixel] - self.points[other]).as_dvec3().abs();

@@ -13,7 +13,8 @@ pub(super) const LEAST_EMITTED: f64 = 5000.0;
 const NUMBER_LEEWAY: f64 = 0.06;
 
 /// What is to be done where no misreading explains a picture.
-pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it. Hand in the photon list: it \
+pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it. Hand in the \
+                                      photon list: it \
     tells more than a picture.";
 
 /// What the test named `check` expects.
@@ -79,9 +80,11 @@ pub(super) fn no_dots(found: f64, elsewhere: f64) -> Finding {
         false,
         Weight::Fault,
         if by_edges {
-            "A photon shows within 0.003 of its position: store the point hit, not a point above it."
+            "A photon shows within 0.003 of its position: store the point hit, not a point above \
+             it."
         } else {
-            "Insert a photon where the size of 'path' is larger than 1, and check that TracePhoton calls \
+            "Insert a photon where the size of 'path' is larger than 1, and check that TracePhoton \
+             calls \
              itself."
         },
     )
@@ -110,9 +113,12 @@ pub(super) fn all_red() -> Finding {
                 .to_owned(),
             false,
             Weight::Grave,
-            "A photon whose position is not a number is near every point. Look for a vector of length 0 \
-             that is normalised: t where the normal is (-1, 0, 0), for which the absolute value of the \
-             dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS may be far larger than \
+            "A photon whose position is not a number is near every point. Look for a vector of \
+             length 0 \
+             that is normalised: t where the normal is (-1, 0, 0), for which the absolute value of \
+             the \
+             dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS may be far \
+             larger than \
              0.003.",
         )
     }
@@ -131,8 +137,8 @@ pub(super) fn enough(found: f64, fitted: f64) -> Finding {
     )
 }
 
-/// With how many photons emitted a misreading explains the dots: the number is all that tells it from the
-/// same misreading with another one that changes little else.
+/// With how many photons emitted a misreading explains the dots: the number is all that tells it
+/// from the same misreading with another one that changes little else.
 pub(super) fn number_under(id: &str, emitted: f64) -> Finding {
     let close = (emitted / PHOTON_COUNT as f64 - 1.0).abs() < NUMBER_LEEWAY;
     storage(
@@ -141,7 +147,8 @@ pub(super) fn number_under(id: &str, emitted: f64) -> Finding {
         format!("'{id}' explains the dots of about {:.0} photons", (emitted / 1e3).round() * 1e3),
         close,
         Weight::Remark,
-        "If yours emitted another number than this, there is another mistake, too: grade with --emitted.",
+        "If yours emitted another number than this, there is another mistake, too: grade with \
+         --emitted.",
     )
 }
 

@@ -9,7 +9,8 @@ use crate::variation::{Frame, Start, Variation};
 pub(super) fn sampling() -> Vec<Entry> {
     let of = |hemisphere| Variation { hemisphere, ..Variation::default() };
     let section = Section::HemisphereSampling;
-    let disk = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of the \
+    let disk = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of \
+                the \
          disk, lifted to the hemisphere.";
     let fresh = "Draw a new number for each of the roulette, u1 and u2.";
     let upper = "Directions have to be in the hemisphere over the normal: take r = sqrt(u1) and \
@@ -66,7 +67,8 @@ pub(super) fn sampling() -> Vec<Entry> {
         Entry::new(
             "numbers-again",
             section,
-            "Each number is drawn once. Pass the generator by reference: a copy draws the same numbers again.",
+            "Each number is drawn once. Pass the generator by reference: a copy draws the same \
+             numbers again.",
             [(
                 "u1 and u2 come again as the next numbers of the path",
                 Variation { repeats_numbers: true, ..Variation::default() },
@@ -75,7 +77,8 @@ pub(super) fn sampling() -> Vec<Entry> {
         Entry::new(
             "along-normal",
             section,
-            "u1 and u2 are always 0: divide by RAND_MAX as a float, since between integers it gives 0.",
+            "u1 and u2 are always 0: divide by RAND_MAX as a float, since between integers it \
+             gives 0.",
             [("all photons leave along the normal", of(Hemisphere::AlongNormal))],
         ),
         Entry::new(
@@ -131,7 +134,8 @@ pub(super) fn transformation() -> Vec<Entry> {
         Entry::new(
             "no-absolute-value",
             section,
-            "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the absolute \
+            "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the \
+             absolute \
              value with your threshold.",
             [
                 (
@@ -154,8 +158,9 @@ pub(super) fn transformation() -> Vec<Entry> {
         Entry::new(
             "nan-frame",
             section,
-            "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, t is (0, 0, 0), \
-             and normalising it gives NaN: compare the absolute value with your threshold.",
+            "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1. Then t is \
+             (0, 0, 0), and normalizing it gives NaN. Compare the absolute value with your \
+             threshold.",
             [(
                 "photons leave the right wall in directions that are not numbers",
                 Variation { reading: never_parallel(TangentBasis::Normalised), ..plain },
@@ -164,7 +169,8 @@ pub(super) fn transformation() -> Vec<Entry> {
         Entry::new(
             "half-normalised",
             section,
-            "Normalise both t and b, or neither: one of them alone squeezes directions to one side.",
+            "Normalise both t and b, or neither: one of them alone squeezes directions to one \
+             side.",
             [("b is normalised, and t is not", of_frame(Frame::HalfNormalised))],
         ),
         Entry::new(
@@ -203,7 +209,8 @@ pub(super) fn transformation() -> Vec<Entry> {
         Entry::new(
             "start-not-moved",
             section,
-            "The scattered ray starts at the point that was hit, a little above it: set its position with \
+            "The scattered ray starts at the point that was hit, a little above it: set its \
+             position with \
              SetRayPosition.",
             [
                 ("scattered rays start where the light is", of_start(Start::Light)),

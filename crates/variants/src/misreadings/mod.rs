@@ -1,5 +1,5 @@
-//! The table of misreadings: to add one, add an entry. What it leaves where, its name, its advice, the table in
-//! the documentation and its tests follow.
+//! The table of misreadings: to add one, add an entry. What it leaves where, its name, its advice,
+//! the table in the documentation and its tests follow.
 
 mod direction;
 mod path;
@@ -79,25 +79,28 @@ pub fn misreadings() -> Vec<Hypothesis> {
     all
 }
 
-/// Photons that meet the surface they leave. How many do depends on rounding, and so on the program:
-/// `self_hits` has the part for every facet.
+/// Photons that meet the surface they leave. How many do depends on rounding, and so on the
+/// program: `self_hits` has the part for every facet.
 pub fn no_offset(self_hits: [f32; FACETS]) -> Hypothesis {
     Entry::by_its_marks(
         "no-offset",
         Section::HemisphereRayTransformation,
-        "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the normal, \
+        "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the \
+         normal, \
          as the framework does for shadow rays.",
         "scattered photons hit the triangle they leave",
         Variation { self_hits, ..Variation::default() },
     )
 }
 
-/// Paths that come again, as from a generator that is seeded for every photon, or alike in every thread.
+/// Paths that come again, as from a generator that is seeded for every photon, or alike in every
+/// thread.
 pub fn repeated_paths() -> Hypothesis {
     Entry::by_its_marks(
         "repeated-paths",
         Section::PhotonEmission,
-        "Seed the generator once for the whole run, not for every photon; with threads, give each a seed of \
+        "Seed the generator once for the whole run, not for every photon; with threads, give each \
+         a seed of \
          its own.",
         "the same paths come more than once",
         Variation::default(),

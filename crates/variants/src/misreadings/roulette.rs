@@ -13,7 +13,8 @@ pub(super) fn roulette() -> Vec<Entry> {
     let mut no_roulette = Entry::new(
         "no-roulette",
         section,
-        "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from the \
+        "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from \
+         the \
          material that was hit, and end the path otherwise.",
         [],
     );
@@ -52,7 +53,8 @@ pub(super) fn roulette() -> Vec<Entry> {
             section,
             largest,
             [(
-                "photons survive with the smallest channel of the diffuse response, not its largest",
+                "photons survive with the smallest channel of the diffuse response, not its \
+                 largest",
                 of(Roulette::Smallest),
             )],
         ),
@@ -62,11 +64,13 @@ pub(super) fn roulette() -> Vec<Entry> {
             largest,
             [
                 (
-                    "photons survive with the luminance of the diffuse response, not its largest channel",
+                    "photons survive with the luminance of the diffuse response, not its largest \
+                     channel",
                     of(Roulette::Weighted([0.2126, 0.7152, 0.0722])),
                 ),
                 (
-                    "photons survive with the luma of the diffuse response, not its largest channel",
+                    "photons survive with the luma of the diffuse response, not its largest \
+                     channel",
                     of(Roulette::Weighted([0.299, 0.587, 0.114])),
                 ),
             ],
