@@ -64,7 +64,7 @@ pub fn print(text: &str) -> Result<(), CliError> {
     }
 }
 
-/// As [`print`], for what must not get lost in silence.
+/// As [`print()`], for what must not get lost in silence.
 ///
 /// # Errors
 /// When standard output cannot be written, also because its reader has closed it.

@@ -26,7 +26,9 @@ fn plain(name: &str) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
     let mut plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
-    plain.truncate(plain.floor_char_boundary(LONGEST_NAME));
+    while plain.len() > LONGEST_NAME {
+        plain.pop();
+    }
     match plain.trim_start_matches('.') {
         "" => "submission".to_owned(),
         plain => plain.to_owned(),

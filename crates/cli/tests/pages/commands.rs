@@ -6,8 +6,9 @@ use crate::markdown::{code_blocks, code_spans};
 use crate::support::{folder, run_line, stdout};
 use crate::{pages, read};
 
-/// Options that pages name of GNU parallel and of the C++ example.
-const OPTIONS_OF_OTHERS: [&str; 3] = ["--sshloginfile", "--mistake", "--reading"];
+/// Options that pages name of GNU parallel, of the C++ example, and of examples in Rust.
+const OPTIONS_OF_OTHERS: [&str; 5] =
+    ["--sshloginfile", "--mistake", "--reading", "--false-alarms", "--seeds"];
 
 /// What `help` says of every verb.
 fn helps() -> BTreeMap<String, String> {
