@@ -1,5 +1,5 @@
 //! Measures what the grader expects of hypotheses in pictures, and writes it to
-//! `golden/signatures-of-pictures.json`: of those that are not in it yet, or of all.
+//! `crates/grading/golden/signatures-of-pictures.json`: of those that are not in it yet, or of all.
 //!
 //! `cargo run --release -p photon-mapping-grading --example grading_picture_signatures -- [all]`
 
@@ -21,5 +21,5 @@ fn main() {
     let mut kept = if of_all { Kept::default() } else { Kept::of_assignment8() };
     let places = Places::new(&create_scene());
     kept.complete(&places, &View::new(&places), MAX_PHOTON_BOUNCES, EFFORT);
-    write_short("golden/signatures-of-pictures.json", &kept);
+    write_short("crates/grading/golden/signatures-of-pictures.json", &kept);
 }

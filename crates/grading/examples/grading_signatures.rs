@@ -1,5 +1,5 @@
 //! Measures what the grader expects of hypotheses in lists, and writes it to
-//! `golden/signatures-of-lists.json`: of those that are not in it yet, or of all.
+//! `crates/grading/golden/signatures-of-lists.json`: of those that are not in it yet, or of all.
 //!
 //! `cargo run --release -p photon-mapping-grading --example grading_signatures -- [all]`
 
@@ -15,5 +15,5 @@ fn main() {
     let of_all = std::env::args().nth(1).is_some();
     let mut kept = if of_all { Kept::default() } else { Kept::of_assignment8() };
     kept.complete(&Places::new(&create_scene()), MAX_PHOTON_BOUNCES, Effort::FULL);
-    write_short("golden/signatures-of-lists.json", &kept);
+    write_short("crates/grading/golden/signatures-of-lists.json", &kept);
 }

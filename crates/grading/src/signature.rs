@@ -69,7 +69,7 @@ pub struct Kept {
 impl Kept {
     /// Those of the assignment as it stands: a test measures some of them again.
     pub fn of_assignment8() -> Self {
-        let json = include_str!("../../../golden/signatures-of-lists.json");
+        let json = include_str!("../golden/signatures-of-lists.json");
         serde_json::from_str(json)
             .expect("the signatures that are part of the program are well formed")
     }
