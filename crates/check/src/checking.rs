@@ -101,8 +101,7 @@ fn remarks(observed: &Observed) -> Vec<String> {
     if has(Notice::RandomDevice) {
         remarks.push(
             "std::random_device is read: here it gives the numbers of the photon's stream, so that \
-             every run is \
-             the same"
+             every run is the same"
                 .to_owned(),
         );
     }

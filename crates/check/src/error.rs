@@ -9,15 +9,13 @@ pub enum CheckError {
     /// There is no C++ compiler.
     #[error(
         "no C++ compiler was found: install one (apt-get install g++, or xcode-select --install), \
-         or name \
-         one in the environment variable CXX"
+         or name one in the environment variable CXX"
     )]
     NoCompiler,
     /// The compiler does not find glm.
     #[error(
         "the compiler does not find glm: install it (apt-get install libglm-dev, or brew install \
-         glm), or \
-         name its folder with --glm PATH"
+         glm), or name its folder with --glm PATH"
     )]
     NoGlm,
     /// The stand-in itself does not compile.

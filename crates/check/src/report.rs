@@ -79,13 +79,11 @@ impl Whole {
             ),
             Outcome::Different if self.draws_nothing() => format!(
                 "random numbers of its own (not from rand()), so that only statistics can tell; \
-                 {records} \
-                 photons stored"
+                 {records} photons stored"
             ),
             Outcome::Different if is_right => format!(
                 "random numbers drawn in another way than the reference's, so that only statistics \
-                 can \
-                 tell; {records} photons stored"
+                 can tell; {records} photons stored"
             ),
             Outcome::Different => self.divergence(report),
         }
@@ -128,8 +126,7 @@ impl Builds {
             Self::MissingFile { file } => format!("no, there is no file {file}"),
             Self::EndsAtOnce { what } => format!(
                 "yes, but the program {what} before any function of the assignment is called: look \
-                 at \
-                 static variables and their constructors"
+                 at static variables and their constructors"
             ),
             Self::No(error) => {
                 let place = match (&error.file, error.line) {

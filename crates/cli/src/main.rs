@@ -108,8 +108,7 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         let file = file.to_string_lossy();
         complain(&format!(
             "error: '{file}' is an option, but also a file here: write -- before the names of \
-             files, \
-             or ./{file}"
+             files, or ./{file}"
         ));
         return FAILED;
     }

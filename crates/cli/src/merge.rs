@@ -163,8 +163,7 @@ fn merge_counts(arguments: &MergeArgs) -> Result<Summary, CliError> {
         let text = fs::read_to_string(path)
             .map_err(|source| ListError::Unreadable { path: path.clone(), source })?;
         let expected = "expected a PLY list or the JSON of --count-only --json; a list in CSV does \
-                        not \
-                        name its run: trace it with --format ply";
+                        not name its run: trace it with --format ply";
         serde_json::from_str(&text).map_err(|_| malformed(path, expected))
     };
     let pieces: Vec<CountOnly> = arguments.pieces.iter().map(read).collect::<Result<_, _>>()?;

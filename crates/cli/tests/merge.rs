@@ -103,8 +103,7 @@ fn csv_pieces_are_refused_with_what_to_do() {
     }
     let merge = ["merge", "ply/photons.ply", "csv/photons.csv", "--out", "all.ply"];
     let advice = "photons.csv: expected a PLY list of render: no other file names its run; trace \
-                  it \
-                  with --format ply";
+                  it with --format ply";
     fails_with(&merge, folder.path(), advice);
     fails_with(&["merge", "csv/photons.csv"], folder.path(), "trace it with --format ply");
     let counts = json_of(&render_counts(&[]), folder.path());

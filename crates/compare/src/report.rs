@@ -289,8 +289,7 @@ impl Report {
             let differ = if list.columns.photon { "differ" } else { "may differ" };
             self.add_note(&format!(
                 "the random numbers {differ}: a list with another generator, seed or order of \
-                 draws \
-                 can be compared only by its statistics, as grade does"
+                 draws can be compared only by its statistics, as grade does"
             ));
         }
     }

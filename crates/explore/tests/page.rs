@@ -78,8 +78,7 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
     let place = browser.run(
-        "(() => { const r = \
-         document.getElementById('view').getBoundingClientRect(); return [r.x, \
+        "(() => { const r = document.getElementById('view').getBoundingClientRect(); return [r.x, \
          r.y, r.width, r.height]; })()",
     );
     let [left, top, width, height] = [0, 1, 2, 3].map(|i| float(&place[i]) as u32);
@@ -127,15 +126,14 @@ fn clicking_a_dot_opens_its_photon() {
     browser.media("prefers-reduced-motion", "reduce");
     // Close to the dot, so that no other is as near to the click.
     browser.run(
-        "const stored = page.run.firstStored[page.run.pathOfPhoton(73)]; \
-         page.view.look({ target: [...page.positions.subarray(3 * stored, 3 * stored + \
-         3)], distance: 0.3, yaw: 1.2, pitch: 0 });",
+        "const stored = page.run.firstStored[page.run.pathOfPhoton(73)]; page.view.look({ target: \
+         [...page.positions.subarray(3 * stored, 3 * stored + 3)], distance: 0.3, yaw: 1.2, pitch: \
+         0 });",
     );
     browser.settle();
     let place = browser.run(
-        "(() => { const [x, y] = page.view.project(page.view.camera.target); \
-         const r = page.view.canvas.getBoundingClientRect(); return [r.x + x, \
-         r.y + y]; })()",
+        "(() => { const [x, y] = page.view.project(page.view.camera.target); const r = \
+         page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; })()",
     );
     let before = Instant::now();
     browser.click(float(&place[0]), float(&place[1]));
@@ -287,15 +285,13 @@ fn the_mouse_turns_zooms_and_centers() {
     // A double-click on a dot turns the box around it from then on.
     let dot = "[...page.positions.subarray(0, 3)]";
     browser.run(&format!(
-        "page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); \
-         page.view.look({{ target: page.view.camera.target.map((x) => x + 0.01) \
-         }})"
+        "page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); page.view.look({{ \
+         target: page.view.camera.target.map((x) => x + 0.01) }})"
     ));
     browser.settle();
     let place = browser.run(&format!(
         "(() => {{ const [x, y] = page.view.project({dot}); const r = \
-         page.view.canvas.getBoundingClientRect(); return [r.x + x, \
-         r.y + y]; }})()"
+         page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; }})()"
     ));
     let (x, y) = (float(&place[0]), float(&place[1]));
     browser.double_click(x, y);
@@ -373,8 +369,7 @@ fn table_and_filters_show_what_they_say() {
     let (surfaces, total) = &handout().0.table;
     let cells = browser.run(
         "[...document.querySelectorAll('#table tbody tr')].map((row) => \
-         [...row.querySelectorAll('b')].map((b) => \
-         Number(b.textContent.replaceAll(',', ''))))",
+         [...row.querySelectorAll('b')].map((b) => Number(b.textContent.replaceAll(',', ''))))",
     );
     for (row, surface) in surfaces.iter().chain([total]).enumerate() {
         let counts = surface.by_bounce.iter().take(3).map(|cell| cell.stored);
@@ -418,9 +413,8 @@ fn it_works_on_a_phone() {
     }
     browser.media("prefers-reduced-motion", "reduce");
     let place = browser.run(
-        "(() => { const b = [...document.querySelectorAll('#names \
-         button')].find((b) => b.textContent === 'Roulette'); \
-         b.scrollIntoView({ block: 'center' }); const r = \
+        "(() => { const b = [...document.querySelectorAll('#names button')].find((b) => \
+         b.textContent === 'Roulette'); b.scrollIntoView({ block: 'center' }); const r = \
          b.getBoundingClientRect(); return [r.x + 9, r.y + 9]; })()",
     );
     browser.tap(float(&place[0]), float(&place[1]));
@@ -506,11 +500,10 @@ fn a_scene_of_ones_own_is_explored() {
     assert_eq!(browser.text("document.getElementById('photon').value"), photon.to_string());
     // From the box's outside its walls are turned away, so the dots within are in sight.
     browser.settle();
-    let drawn = "(() => { const v = page.view, gl = v.gl; v.drawNow(); \
-         const all = new Uint8Array(4 * v.canvas.width * v.canvas.height); \
-         gl.readPixels(0, 0, v.canvas.width, v.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, all); \
-         let dots = 0; for (let i = 0; i < all.length; i += 4) dots += all[i + 2] > all[i] + 60; \
-         return dots; })()";
+    let drawn = "(() => { const v = page.view, gl = v.gl; v.drawNow(); const all = new \
+         Uint8Array(4 * v.canvas.width * v.canvas.height); gl.readPixels(0, 0, v.canvas.width, \
+         v.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, all); let dots = 0; for (let i = 0; i < \
+         all.length; i += 4) dots += all[i + 2] > all[i] + 60; return dots; })()";
     let drawn = float(&browser.run(drawn));
     assert!(drawn > 100.0, "{drawn}");
     browser.has_been_quiet();
@@ -525,16 +518,14 @@ fn page_of_the_default_run_is_small_and_quick() {
     let first = float(&browser.run("page.firstFrame"));
     // Frames drawn one after another while the camera turns, each waited for.
     let frames = float(&browser.run(
-        "(async () => { const start = performance.now(); let frames = \
-         0; while (performance.now() - start < 2000) { \
-         page.view.look({ yaw: page.view.camera.yaw + 0.02 }); await new Promise((done) => \
-         requestAnimationFrame(() => requestAnimationFrame(done))); frames++; } return 1000 * \
-         frames / (performance.now() - start); })()",
+        "(async () => { const start = performance.now(); let frames = 0; while (performance.now() \
+         - start < 2000) { page.view.look({ yaw: page.view.camera.yaw + 0.02 }); await new \
+         Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))); frames++; } \
+         return 1000 * frames / (performance.now() - start); })()",
     ));
     let click = float(&browser.run(
-        "(() => { const start = performance.now(); page.open(253, 0, \
-         'hit'); page.view.drawNow(); page.view.gl.finish(); return \
-         performance.now() - start; })()",
+        "(() => { const start = performance.now(); page.open(253, 0, 'hit'); page.view.drawNow(); \
+         page.view.gl.finish(); return performance.now() - start; })()",
     ));
     eprintln!(
         "page {size} bytes, first frame {first:.0} ms, {frames:.0} frames/s, a click to its path \

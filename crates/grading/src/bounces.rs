@@ -49,8 +49,7 @@ pub fn bounce_findings(
                 "".into()
             } else {
                 "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0. If the \
-                 limit was \
-                 meant to be another one, grade with --max-bounces."
+                 limit was meant to be another one, grade with --max-bounces."
                     .into()
             },
         });
@@ -76,9 +75,8 @@ pub fn bounce_findings(
         advice: match (passed, counts_hits) {
             (true, _) => "",
             (_, true) => {
-                "Check that every hit draws new random numbers, that the chance to \
-                          scatter is that of \
-                the material that was hit, and how your list counts bounces."
+                "Check that every hit draws new random numbers, that the chance to scatter is that \
+                          of the material that was hit, and how your list counts bounces."
             }
             (_, false) => "Check how your list counts bounces.",
         }
@@ -127,8 +125,7 @@ fn longest_path(
             "".into()
         } else {
             "Paths end too early: look for a limit of bounces other than the one that is asked \
-             for. If it was \
-             meant, grade with --max-bounces."
+             for. If it was meant, grade with --max-bounces."
                 .into()
         },
     })

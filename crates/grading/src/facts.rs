@@ -62,8 +62,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             counts.not_finite == 0.0,
             Weight::Grave,
             "Look for what makes numbers that are not finite: a division by 0, the root of a \
-             negative number, or a \
-             vector of length 0 that is normalised.",
+             negative number, or a vector of length 0 that is normalised.",
         ),
         fact(
             "on surfaces",
@@ -83,8 +82,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
             Weight::Fault,
             "A photon got into a box: directions must be in the hemisphere over the normal, and \
-             the \
-             scattered ray must start above the surface.",
+             the scattered ray must start above the surface.",
         ),
         fact(
             "same place",
@@ -95,16 +93,13 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             Weight::Fault,
             if is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5) {
                 "Whole paths come again: check that the generator is seeded once for the whole \
-                 run, and \
-                 that threads do not share a seed."
+                 run, and that threads do not share a seed."
             } else if observation.repeats_by_rounding || observation.identical.is_none() {
                 "Scattered rays hit the triangle they leave: start them a little above the \
-                 surface, or \
-                 check that no photon is inserted twice."
+                 surface, or check that no photon is inserted twice."
             } else {
                 "Scattered rays come back at once to the surface they leave: check that directions \
-                 are \
-                 in the hemisphere over the normal, and that rays start above the surface."
+                 are in the hemisphere over the normal, and that rays start above the surface."
             },
         ),
     ];
@@ -140,8 +135,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             if counts_paths { Weight::Fault } else { Weight::Remark },
             if counts_paths {
                 "Records are lost. Lock the photon map while a thread inserts into it, or give \
-                 every \
-                 thread its own."
+                 every thread its own."
             } else {
                 "Let 'photon' number the photons that are emitted, and 'bounce' count each one's \
                  hits."
@@ -287,8 +281,7 @@ pub fn remarks(
             "directions to where the photon came from",
             format!(
                 "{to_the_light} of {set} point straight to the light, but the photons do not lie \
-                 where \
-                 those straight from the light do"
+                 where those straight from the light do"
             ),
             false,
             "Set 'toLightRay' to a ray in the opposite direction of the photon ray that came here.",

@@ -203,8 +203,7 @@ pub(super) fn two_at_once(pair: &Hypothesis) -> Cow<'static, str> {
 
 /// What is to be done where no misreading explains a list.
 const UNEXPLAINED: &str = "None of the known misreadings explains it. Print a few photons and \
-                           follow them by \
-    hand; 'photon-mapping explain' tells one's whole story.";
+                           follow them by hand; 'photon-mapping explain' tells one's whole story.";
 
 /// The same where a plain fault is told before.
 const ECHO: &str = "No misreading is known for it: it may be an echo of the fault above.";

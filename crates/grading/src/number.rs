@@ -87,10 +87,8 @@ pub fn contradiction(number: f64, fitted: f64, p_value: f64) -> Finding {
         passed: false,
         weight: Weight::Fault,
         advice: "Photons are lost or stored too often, all over the scene, or the intensity is \
-                 wrong, which is to \
-                 be lightIntensity as it is. The list cannot tell which: grade with --emitted, and \
-                 the \
-                 intensity costs nothing."
+                 wrong, which is to be lightIntensity as it is. The list cannot tell which: grade \
+                 with --emitted, and the intensity costs nothing."
             .into(),
     }
 }

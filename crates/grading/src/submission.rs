@@ -250,8 +250,7 @@ fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Opti
     }
     let found = format!(
         "of {of_picture:.0} red pixels of the picture and {of_list:.0} of the list's photons, \
-         {both:.0} are \
-         the same"
+         {both:.0} are the same"
     );
     let advice = "Hand in the list and the picture of one run: the list is what is graded.";
     Some(remark("list and picture", "dots where the list's photons are", &found, advice))
@@ -412,8 +411,7 @@ fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
         passed: false,
         weight: Weight::Fault,
         advice: "Insert a photon where the size of 'path' is larger than 1; check that 'path' \
-                 grows and \
-                 that TracePhoton calls itself."
+                 grows and that TracePhoton calls itself."
             .into(),
     };
     let grade = Grade {

@@ -58,8 +58,7 @@ const LAWS: [Law; 5] = [
     Law {
         name: "cube-directions",
         what: "directions come from the whole cube, not from the sphere: there are too many \
-               towards its \
-               corners",
+               towards its corners",
         advice: REJECT,
         draw: cube,
     },
@@ -120,8 +119,7 @@ fn judge_start(rays: &[[Vec3; 2]], verdict: &mut Verdict) {
     if let Some([from, _]) = first {
         let found = format!(
             "{elsewhere} of {} rays do not start at the light: the light is at {}, the first of \
-             them starts \
-             at {}",
+             them starts at {}",
             rays.len(),
             vector(LIGHT),
             vector(*from)
@@ -147,8 +145,7 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
     if directions.iter().all(|direction| direction.abs_diff_eq(first, 1e-6)) {
         let found = format!("all {total} directions are the same, {}", vector(first));
         let advice = "Call ray.SetRayDirection with random numbers drawn anew in every call; \
-                      dividing \
-                      two integers, rand() / RAND_MAX, gives 0.";
+                      dividing two integers, rand() / RAND_MAX, gives 0.";
         verdict.fault(Some("same-direction"), found, advice);
         return false;
     }
@@ -166,8 +163,7 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
             .map(|pick| lengths.iter().copied().reduce(pick).unwrap_or_default());
         let found = format!(
             "{other} of {total} directions are not unit vectors: their lengths go from {least:.2} \
-             to \
-             {most:.2}"
+             to {most:.2}"
         );
         let advice = "Normalise the vector before you hand it to SetRayDirection, which does not.";
         verdict.fault(Some("not-normalised"), found, advice);
@@ -189,8 +185,7 @@ fn judge_law(directions: &[Vec3], verdict: &mut Verdict) {
     let is_half = above == 0 || above == directions.len();
     let found = format!(
         "directions are not even over the sphere: their mean is ({x:.3}, {y:.3}, {z:.3}), where \
-         (0, 0, 0) is \
-         due, and {above} of {} go up",
+         (0, 0, 0) is due, and {above} of {} go up",
         directions.len()
     );
     verdict.fault(

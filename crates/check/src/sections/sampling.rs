@@ -20,8 +20,7 @@ const LAWS: [Law; 7] = [
         name: "uniform-hemisphere",
         what: "directions are uniform over the hemisphere, not in proportion to the cosine",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of \
-                 the disk, lifted \
-                 to the hemisphere.",
+                 the disk, lifted to the hemisphere.",
         squared_sine: |u| 1.0 - u * u,
     },
     Law {

@@ -23,8 +23,7 @@ const STEPS: [Step; 9] = [
 
 const MAXIMUM: &str = "Equation (1): P_r = max(d_r, d_g, d_b).";
 const ROULETTE: &str = "Scatter only if a new random number in [0, 1) is less than P_r, which \
-                        equation (1) takes from \
-    the material that was hit; do nothing otherwise.";
+                        equation (1) takes from the material that was hit; do nothing otherwise.";
 
 /// A rule for the chance to scatter.
 struct Rule {
@@ -218,8 +217,7 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
         }
         let found = format!(
             "at hit number {hit} of a path, {count} of {total} photons scatter where P_r = 0.5; at \
-             the first hit the \
-             part is right"
+             the first hit the part is right"
         );
         let advice = "Let the same roulette decide at every hit, with a new random number.";
         verdict.fault(Some("late-roulette"), found, advice);
@@ -246,8 +244,7 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
     if far.0 > 50.0 && near.0 > 50.0 && (far.1 - near.1).abs() > SIGMAS * sigma {
         let found = format!(
             "whether a photon scatters depends on its last direction: {:.0} % of those near the \
-             normal do, and \
-             {:.0} % of the others",
+             normal do, and {:.0} % of the others",
             100.0 * near.1,
             100.0 * far.1
         );

@@ -26,8 +26,7 @@ const STEPS: [Step; 9] = [
 const IN_EVERY_CALL: &str =
     "Call TracePhoton for the scattered ray in every call, not only in the first.";
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
-                          grow with every \
-    call of TracePhoton.";
+                          grow with every call of TracePhoton.";
 
 pub(super) fn judge(observed: &Observed) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonStorage);
@@ -61,8 +60,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
     if STEPS.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
         verdict.remarks.push(
             "TracePhoton takes other arguments than the framework's, so paths that start with two \
-             elements \
-             were not tried"
+             elements were not tried"
                 .to_owned(),
         );
     }
@@ -74,8 +72,7 @@ fn judge_first(calls: &[Call], verdict: &mut Verdict) {
     if stored > 0 {
         let found = format!(
             "{stored} photons are stored in {} calls where the path has a size of 1: they come \
-             directly \
-             from the light",
+             directly from the light",
             calls.len()
         );
         verdict.fault(Some("direct-stored"), found, ONLY_LATER);
@@ -91,8 +88,7 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
         if none > 0 {
             let found = format!(
                 "nothing is stored in {none} of {} calls where the path has a size of {path} and \
-                 the wall \
-                 is black",
+                 the wall is black",
                 with_hit.len()
             );
             let stores_third =
@@ -138,8 +134,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     let ends_at_second = |call: &Call| call.hits().count() == 2 && call.rays() == 2;
     if !calls.is_empty() && calls.iter().all(ends_at_second) {
         let found = "all paths end at the second hit in a closed white cube where remainingBounces \
-                     starts \
-                     with 5; 6 hits are due";
+                     starts with 5; 6 hits are due";
         verdict.fault(Some("first-bounce-only"), found.to_owned(), IN_EVERY_CALL);
     }
     let hits: usize = calls.iter().map(|call| call.hits().count().saturating_sub(1)).sum();
@@ -153,8 +148,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     if first_stored > 0 && !has_fault(verdict, "direct-stored") {
         let found = format!(
             "the first hit of the path is stored in {first_stored} of {} calls: it comes directly \
-             from the \
-             light",
+             from the light",
             calls.len()
         );
         verdict.fault(Some("direct-stored"), found, ONLY_LATER);
@@ -177,8 +171,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     if without > 0 {
         let found = format!(
             "the second hit of the path is not stored in {without} of {} calls; the first that is \
-             stored comes \
-             later",
+             stored comes later",
             second.count()
         );
         verdict.fault(Some("third-hit-on"), found, ONLY_LATER);
@@ -254,8 +247,7 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     if all_same && !missed && !is_told && (2..1001).contains(&count) {
         let found = format!(
             "all paths end after {count} hits in a closed white cube where remainingBounces starts \
-             with \
-             1000; 1001 are due"
+             with 1000; 1001 are due"
         );
         let (name, advice) = match count {
             2 => ("first-bounce-only", IN_EVERY_CALL),

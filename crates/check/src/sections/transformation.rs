@@ -20,8 +20,7 @@ const FEW: f64 = 1e-3;
 const COLUMNS: &str =
     "The columns of the matrix are t, b and n, in this order; glm::mat3(t, b, n) takes columns.";
 const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: \
-                    compare the absolute value \
-    with your threshold.";
+                    compare the absolute value with your threshold.";
 
 pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
     let mut verdict = Verdict::new(Section::HemisphereRayTransformation);
@@ -132,13 +131,12 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
 }
 
 const NAN_WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, \
-                        t is (0, 0, 0), and \
-    normalising it gives NaN: compare the absolute value with your threshold.";
+                        t is (0, 0, 0), and normalising it gives NaN: compare the absolute value \
+                        with your threshold.";
 const PARALLEL: &str = "Where the normal is close to parallel with (1, 0, 0), take another vector, \
                         such as (0, 1, 0), in equation (7).";
 const FRAME: &str = "t = n x (1, 0, 0) and b = n x t, equations (7) and (8); the matrix with the \
-                     columns t, b and n turns \
-    the sample into world space.";
+                     columns t, b and n turns the sample into world space.";
 
 /// The mean direction over a wall, and how many go below it.
 fn seen(normal: Vec3, rays: &[Scattered]) -> String {
@@ -224,8 +222,7 @@ fn judge_start(directions: &Directions, verdict: &mut Verdict) {
             }
         );
         let advice = "Start the scattered ray a little above the surface: the hit point plus 1e-5 \
-                      times the normal, as \
-                      the framework does for shadow rays.";
+                      times the normal, as the framework does for shadow rays.";
         verdict.fault(Some("no-offset"), found, advice);
         return;
     }

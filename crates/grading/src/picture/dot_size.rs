@@ -95,10 +95,8 @@ impl<'a> DotSize<'a> {
         let [wide, high] = self.extent();
         format!(
             "its dots are too large, up to {wide} x {high} pixels: with the framework's \
-             PHOTON_DOT_RADIUS \
-             of {PHOTON_DOT_RADIUS} they are 1 or 2 pixels wide, and do not hide each other: \
-             {WANTED}, \
-             with that radius"
+             PHOTON_DOT_RADIUS of {PHOTON_DOT_RADIUS} they are 1 or 2 pixels wide, and do not hide \
+             each other: {WANTED}, with that radius"
         )
     }
 

@@ -286,8 +286,8 @@ fn reason(pixels: &[[u8; 3]], view: &View, astray: f64) -> String {
     if correlation > SAME_VIEW {
         format!(
             "it shows the handout's view, but {:.1} % of its pixels are neither direct light nor a \
-             dot, \
-             as after JPEG compression, resizing, a change of colours or a screenshot: {WANTED}",
+             dot, as after JPEG compression, resizing, a change of colours or a screenshot: \
+             {WANTED}",
             100.0 * astray
         )
     } else {

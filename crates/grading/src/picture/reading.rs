@@ -66,8 +66,7 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     if (width, height) != (WIDTH, HEIGHT) {
         return Err(format!(
             "it has {width} x {height} pixels, where the handout's has {WIDTH} x {HEIGHT}: it was \
-             made \
-             with another size, or resized, or is a screenshot. Dots are judged at that size \
+             made with another size, or resized, or is a screenshot. Dots are judged at that size \
              alone: {WANTED}"
         ));
     }

@@ -14,8 +14,7 @@ const NUMBER_LEEWAY: f64 = 0.06;
 
 /// What is to be done where no misreading explains a picture.
 pub(super) const UNEXPLAINED: &str = "None of the known misreadings explains it. Hand in the \
-                                      photon list: it \
-    tells more than a picture.";
+                                      photon list: it tells more than a picture.";
 
 /// What the test named `check` expects.
 pub(super) fn expected_by(check: &str) -> &'static str {
@@ -84,8 +83,7 @@ pub(super) fn no_dots(found: f64, elsewhere: f64) -> Finding {
              it."
         } else {
             "Insert a photon where the size of 'path' is larger than 1, and check that TracePhoton \
-             calls \
-             itself."
+             calls itself."
         },
     )
 }
@@ -114,12 +112,9 @@ pub(super) fn all_red() -> Finding {
             false,
             Weight::Grave,
             "A photon whose position is not a number is near every point. Look for a vector of \
-             length 0 \
-             that is normalised: t where the normal is (-1, 0, 0), for which the absolute value of \
-             the \
-             dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS may be far \
-             larger than \
-             0.003.",
+             length 0 that is normalised: t where the normal is (-1, 0, 0), for which the absolute \
+             value of the dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS \
+             may be far larger than 0.003.",
         )
     }
 }

@@ -10,8 +10,7 @@ pub(super) fn sampling() -> Vec<Entry> {
     let of = |hemisphere| Variation { hemisphere, ..Variation::default() };
     let section = Section::HemisphereSampling;
     let disk = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of \
-                the \
-         disk, lifted to the hemisphere.";
+                the disk, lifted to the hemisphere.";
     let fresh = "Draw a new number for each of the roulette, u1 and u2.";
     let upper = "Directions have to be in the hemisphere over the normal: take r = sqrt(u1) and \
          z = sqrt(1 - u1), equations (2) and (6).";
@@ -135,8 +134,7 @@ pub(super) fn transformation() -> Vec<Entry> {
             "no-absolute-value",
             section,
             "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: compare the \
-             absolute \
-             value with your threshold.",
+             absolute value with your threshold.",
             [
                 (
                     "photons leave the right wall along its normal: there t and b have no length",
@@ -210,8 +208,7 @@ pub(super) fn transformation() -> Vec<Entry> {
             "start-not-moved",
             section,
             "The scattered ray starts at the point that was hit, a little above it: set its \
-             position with \
-             SetRayPosition.",
+             position with SetRayPosition.",
             [
                 ("scattered rays start where the light is", of_start(Start::Light)),
                 ("scattered rays start at (0, 0, 0)", of_start(Start::Zero)),

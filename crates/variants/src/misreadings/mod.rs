@@ -86,8 +86,7 @@ pub fn no_offset(self_hits: [f32; FACETS]) -> Hypothesis {
         "no-offset",
         Section::HemisphereRayTransformation,
         "Start the scattered ray a little above the surface: the hit point plus 1e-5 times the \
-         normal, \
-         as the framework does for shadow rays.",
+         normal, as the framework does for shadow rays.",
         "scattered photons hit the triangle they leave",
         Variation { self_hits, ..Variation::default() },
     )
@@ -100,8 +99,7 @@ pub fn repeated_paths() -> Hypothesis {
         "repeated-paths",
         Section::PhotonEmission,
         "Seed the generator once for the whole run, not for every photon; with threads, give each \
-         a seed of \
-         its own.",
+         a seed of its own.",
         "the same paths come more than once",
         Variation::default(),
     )

@@ -44,8 +44,7 @@ pub(super) fn emission() -> Vec<Entry> {
             "polar-directions",
             section,
             "An even polar angle crowds directions at the poles. Draw x, y and z in [-1, 1), again \
-             while \
-             x^2 + y^2 + z^2 > 1, and normalise.",
+             while x^2 + y^2 + z^2 > 1, and normalise.",
             [
                 (
                     "the polar angle from the light is even, about the z axis",
@@ -74,8 +73,7 @@ pub(super) fn storage() -> Vec<Entry> {
     let of = |storage| Variation { storage, ..Variation::default() };
     let section = Section::PhotonStorage;
     let not_direct = "Store a photon only where the size of 'path' is larger than 1, and let \
-                      'path' grow with \
-         every call.";
+                      'path' grow with every call.";
     vec![
         Entry::new(
             "direct-stored",
@@ -87,24 +85,21 @@ pub(super) fn storage() -> Vec<Entry> {
             "direct-only",
             section,
             "Photons are stored before they bounce, and not after. Store a photon where the size \
-             of 'path' is \
-             LARGER than 1, and call TracePhoton again after it.",
+             of 'path' is LARGER than 1, and call TracePhoton again after it.",
             [("photons straight from the light are stored, and no others", of(Storage::Direct))],
         ),
         Entry::new(
             "first-bounce-only",
             section,
             "Only the first bounce of a path is stored. Let TracePhoton call itself after every \
-             bounce, with \
-             the same 'path', and store while its size is larger than 1.",
+             bounce, with the same 'path', and store while its size is larger than 1.",
             [("of every path, only the first bounce is stored", of(Storage::FirstBounce))],
         ),
         Entry::new(
             "third-hit-on",
             section,
             "The first bounce is not stored. The light is the first entry of 'path': store where \
-             its size is \
-             larger than 1, not 2.",
+             its size is larger than 1, not 2.",
             [("photons are stored from the third hit on, not the second", of(Storage::FromThird))],
         ),
         Entry::new(

@@ -14,8 +14,7 @@ pub(super) fn roulette() -> Vec<Entry> {
         "no-roulette",
         section,
         "Scatter only if a random number in [0, 1) is less than P_r, which equation (1) takes from \
-         the \
-         material that was hit, and end the path otherwise.",
+         the material that was hit, and end the path otherwise.",
         [],
     );
     for tenths in 1..=9_u8 {
