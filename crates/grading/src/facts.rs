@@ -58,7 +58,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "finite",
             transformation,
             "every position is finite",
-            format!("{} are not", of_all(counts.not_finite, records)),
+            format!("{} positions are not finite", of_all(counts.not_finite, records)),
             counts.not_finite == 0.0,
             Weight::Grave,
             "Look for what makes numbers that are not finite: a division by 0, the root of a \
@@ -68,7 +68,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "on surfaces",
             storage,
             &format!("every photon lies on one of the {surfaces} surfaces, up to 0.007 off"),
-            format!("{} lie elsewhere", of_all(counts.off_surface, finite)),
+            format!("{} photons are off the surfaces", of_all(counts.off_surface, finite)),
             counts.off_surface <= (MOST_ASTRAY * finite).max(1.0),
             Weight::Grave,
             "The position is state.intersectionRay.GetRayPosition(state.intersectionT), in world \
@@ -78,7 +78,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "footprints",
             transformation,
             "no photon lies on the floor beneath a box",
-            format!("{} lie there", of_all(counts.footprint, finite)),
+            format!("{} photons are under a box", of_all(counts.footprint, finite)),
             counts.footprint <= (MOST_ASTRAY * finite).max(1.0),
             Weight::Fault,
             "A photon got into a box: directions must be in the hemisphere over the normal, and \
@@ -88,7 +88,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "same place",
             transformation,
             "hardly any two photons lie at the same place",
-            format!("{} lie {exactly}where another one does", of_all(same, on_facets)),
+            format!("{} photons are {exactly}where another one is", of_all(same, on_facets)),
             !is_repeated && !is_identical,
             Weight::Fault,
             if is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5) {
@@ -112,7 +112,8 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "spread",
             storage,
             "photons spread over the surfaces, not on a few spots or lines",
-            if is_crowded { "they crowd on a few spots or lines" } else { "they are" }.to_owned(),
+            if is_crowded { "they crowd on a few spots or lines" } else { "they spread" }
+                .to_owned(),
             !is_crowded,
             Weight::Fault,
             "Check that every photon has random numbers of its own, and that the position is where \
@@ -130,7 +131,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "whole paths",
             storage,
             "for every bounce of a photon, a record of the one before",
-            format!("{without} of {later} have none"),
+            format!("{without} of {later} records lack the one before"),
             count <= (MOST_ASTRAY * later as f64).max(2.0),
             if counts_paths { Weight::Fault } else { Weight::Remark },
             if counts_paths {

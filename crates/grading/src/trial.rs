@@ -103,7 +103,7 @@ fn tests(
         tests.push(Test {
             check: "number",
             p_value: tails_of_count(found, expected, deviation.powi(2)),
-            found: format!("{found:.0} photons where {expected:.0} are expected"),
+            found: format!("{found:.0} photons; expected {expected:.0}"),
         });
     }
 
@@ -231,7 +231,7 @@ fn farthest(counts: &[f64], law: &Law, emitted: f64, name: impl Fn(usize) -> Str
     let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
     let at = farthest.unwrap_or_default();
     format!(
-        "farthest off: {}, {:.0} photons where {:.0} are expected ({:+.1} standard deviations)",
+        "largest difference: {}, {:.0} photons; expected {:.0} ({:+.1} standard deviations)",
         name(at),
         counts[at],
         emitted * law.mean[at],

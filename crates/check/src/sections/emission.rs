@@ -185,7 +185,7 @@ fn judge_law(directions: &[Vec3], verdict: &mut Verdict) {
     let is_half = above == 0 || above == directions.len();
     let found = format!(
         "directions are not even over the sphere: their mean is ({x:.3}, {y:.3}, {z:.3}), where \
-         (0, 0, 0) is due, and {above} of {} go up",
+         (0, 0, 0) is expected, and {above} of {} go up",
         directions.len()
     );
     verdict.fault(

@@ -115,7 +115,7 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
         return;
     }
     if below > 0 && below < total {
-        let found = format!("{below} of {total} directions go below the floor, where none is due");
+        let found = format!("{below} of {total} directions go below the floor; expected none");
         verdict.fault(
             Some("below-surface"),
             found,
@@ -131,15 +131,12 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
     let cosines: Vec<_> = sines.iter().map(|sine| (1.0 - sine).max(0.0).sqrt()).collect();
     let cosine = mean(&cosines);
     if let Some(law) = law {
-        let found = format!(
-            "{}: the mean cosine to the normal is {cosine:.3}, where 0.667 is due",
-            law.what
-        );
+        let found =
+            format!("{}: the mean cosine to the normal is {cosine:.3}; expected 0.667", law.what);
         verdict.fault(Some(law.name), found, law.advice);
     } else if !is_uniform(sines) {
-        let found = format!(
-            "directions do not follow the cosine: its mean is {cosine:.3}, where 0.667 is due"
-        );
+        let found =
+            format!("directions do not follow the cosine: its mean is {cosine:.3}; expected 0.667");
         let advice = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).";
         verdict.fault(None, found, advice);
     }
@@ -149,7 +146,7 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
             rays.iter().map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y))).unzip();
         let found = format!(
             "directions are not even around the normal: the means of x and y are {:.3} and {:.3}, \
-             where 0 is due",
+             expected 0",
             mean(&x),
             mean(&y)
         );

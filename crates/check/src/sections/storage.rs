@@ -134,7 +134,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
     let ends_at_second = |call: &Call| call.hits().count() == 2 && call.rays() == 2;
     if !calls.is_empty() && calls.iter().all(ends_at_second) {
         let found = "all paths end at the second hit in a closed white cube where remainingBounces \
-                     starts with 5; 6 hits are due";
+                     starts with 5; expected 6 hits";
         verdict.fault(Some("first-bounce-only"), found.to_owned(), IN_EVERY_CALL);
     }
     let hits: usize = calls.iter().map(|call| call.hits().count().saturating_sub(1)).sum();
@@ -216,7 +216,7 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     let stored_at_zero: usize = at_zero.iter().map(|call| call.stored.len()).sum();
     let hits_at_one: usize = calls(Step::Remaining(1)).iter().map(|call| call.hits().count()).sum();
     if !at_zero.is_empty() && hits_at_one > 0 && hits_at_zero == 0 {
-        let found = "with remainingBounces = 0, no ray is traced; one more is due".to_owned();
+        let found = "with remainingBounces = 0, no ray is traced; expected one".to_owned();
         verdict.fault(Some("bounce-off-by-one"), found, advice);
         return;
     }
@@ -228,7 +228,7 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     }
     if hits_at_zero > at_zero.len() && verdict.faults.is_empty() {
         let found = format!(
-            "with remainingBounces = 0, a path has {} hits; 1 is due",
+            "with remainingBounces = 0, a path has {} hits; expected 1",
             hits_at_zero.div_ceil(at_zero.len())
         );
         let advice = "Hand remainingBounces - 1 to the next call, and end where it is less than 0.";
@@ -247,7 +247,7 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
     if all_same && !missed && !is_told && (2..1001).contains(&count) {
         let found = format!(
             "all paths end after {count} hits in a closed white cube where remainingBounces starts \
-             with 1000; 1001 are due"
+             with 1000; expected 1001"
         );
         let (name, advice) = match count {
             2 => ("first-bounce-only", IN_EVERY_CALL),
@@ -256,7 +256,7 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
         };
         verdict.fault(Some(name), found, advice);
     } else if all_same && count > 1001 {
-        let found = format!("paths have {count} hits where 1001 are due");
+        let found = format!("paths have {count} hits; expected 1001");
         verdict.fault(Some("no-limit"), found, "Hand remainingBounces - 1 to the next call.");
     }
 }

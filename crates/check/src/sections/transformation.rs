@@ -145,7 +145,7 @@ fn seen(normal: Vec3, rays: &[Scattered]) -> String {
     let below = finite().filter(|direction| direction.dot(normal) < 0.0).count();
     let due = normal * (2.0 / 3.0);
     format!(
-        "where the normal is {}, the mean direction is {} and about {} is due; {below} of {} go \
+        "where the normal is {}, the mean direction is {}; expected about {}; {below} of {} go \
          below the surface",
         short(normal),
         short(mean),

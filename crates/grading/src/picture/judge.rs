@@ -203,7 +203,7 @@ impl Case<'_> {
             tests.push(Test {
                 check: "number of dots",
                 p_value: fit(&[found], &whole.law(LEEWAY), Some(1.0)).p_value,
-                found: format!("{found:.0} red pixels where {:.0} are expected", whole.mean[0]),
+                found: format!("{found:.0} red pixels; expected {:.0}", whole.mean[0]),
             });
         }
 

@@ -37,7 +37,7 @@ pub(super) fn farthest(
     let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
     let at = farthest.unwrap_or_default();
     format!(
-        "farthest off: {}, {:.0} red pixels where {:.0} are expected ({:+.1} standard deviations)",
+        "largest difference: {}, {:.0} red pixels; expected {:.0} ({:+.1} standard deviations)",
         name(at),
         counts[at],
         expected.mean[at],
