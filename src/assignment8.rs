@@ -19,6 +19,8 @@ pub const MAX_PHOTON_BOUNCES: i32 = 1000;
 pub const WIDTH: u32 = 640;
 /// The height of the picture, in pixels.
 pub const HEIGHT: u32 = 480;
+/// How much of the scene the picture shows from top to bottom, in degrees.
+const VERTICAL_FIELD_OF_VIEW: f32 = 26.6;
 
 /// The stripped Cornell box with its light, near where the ceiling was. World space, z up.
 pub fn create_scene() -> Scene {
@@ -33,7 +35,7 @@ pub fn create_camera(width: u32, height: u32) -> PerspectiveCamera {
         Vec3::new(0.0, -4.1469, 0.73693),
         Vec3::Y,
         Vec3::Z,
-        26.6,
+        VERTICAL_FIELD_OF_VIEW,
         width as f32 / height as f32,
     )
 }

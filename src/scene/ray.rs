@@ -36,16 +36,6 @@ impl Ray {
     pub fn ray_direction(&self) -> Vec3 {
         self.direction
     }
-
-    /// Moves the start: C++ `Ray::SetRayPosition`.
-    pub fn set_ray_position(&mut self, position: Vec3) {
-        self.position = position;
-    }
-
-    /// Turns the ray to the unit vector `direction`: C++ `Ray::SetRayDirection`.
-    pub fn set_ray_direction(&mut self, direction: Vec3) {
-        self.direction = direction;
-    }
 }
 
 /// The answer of [`Scene::trace`]: the ray that was traced and the closest triangle it met.

@@ -17,7 +17,6 @@ use crate::kit::Kit;
 use crate::plan::{self, Step};
 use crate::report::{Builds, Report, Whole};
 use crate::run::{Observed, run};
-use crate::sandbox::has_bubblewrap;
 use crate::sections;
 
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge.
@@ -121,13 +120,6 @@ fn remarks(observed: &Observed) -> Vec<String> {
     if has(Notice::NotGuarded) {
         remarks.push(
             "this system has no filter for system calls: run submissions in a container".to_owned(),
-        );
-    }
-    if !has_bubblewrap() {
-        remarks.push(
-            "bubblewrap is not at hand: submissions could read files of this account, but not \
-             change them"
-                .to_owned(),
         );
     }
     remarks

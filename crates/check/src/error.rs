@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::find::{LIGHT, RENDERER};
+
 /// No fault of a student.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
@@ -33,6 +35,18 @@ pub enum CheckError {
         path: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// A folder has several submissions in it.
+    #[error(
+        "{}: {LIGHT} and {RENDERER} are in several folders ({folders}): say --class, or name one \
+         folder",
+        path.display()
+    )]
+    Ambiguous {
+        /// The path.
+        path: PathBuf,
+        /// The folders that have both files.
+        folders: String,
     },
     /// The working folder cannot be written, or a program cannot be started.
     #[error("{what}: {source}")]

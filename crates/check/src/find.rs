@@ -73,7 +73,10 @@ impl Submission {
         }
     }
 
-    /// Whether `path` is a class: a folder in which at least two folders are submissions.
+    /// The folders in the class `path`, each of which is a submission.
+    ///
+    /// # Errors
+    /// When `path` cannot be read.
     pub fn of_class(path: &Path) -> Result<Vec<PathBuf>, CheckError> {
         let entries = fs::read_dir(path)
             .map_err(|source| CheckError::Unreadable { path: path.to_owned(), source })?;
@@ -84,6 +87,24 @@ impl Submission {
             .collect();
         folders.sort();
         Ok(folders)
+    }
+}
+
+/// Refuses the folder `path` if it is not one submission: two folders in it have both files each.
+///
+/// # Errors
+/// When it is a class.
+pub fn refuse_class(path: &Path) -> Result<(), CheckError> {
+    let is_whole = |folder: &PathBuf| {
+        let found = Submission::find(folder);
+        found.is_ok_and(|found| found.light.is_some() && found.renderer.is_some())
+    };
+    let folders = Submission::of_class(path).unwrap_or_default();
+    let whole: Vec<String> =
+        folders.iter().filter(|folder| is_whole(folder)).map(|folder| name_of(folder)).collect();
+    match whole.len() {
+        0 | 1 => Ok(()),
+        _ => Err(CheckError::Ambiguous { path: path.to_owned(), folders: whole.join(", ") }),
     }
 }
 

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use check::find::Submission;
+use check::find::{Submission, refuse_class};
 use check::kit::Kit;
+use check::sandbox::has_bubblewrap;
 use check::{Report, Settings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
@@ -35,7 +36,8 @@ pub struct CheckArgs {
     /// Take each SUBMISSION for a class: a folder whose subfolders are submissions
     #[arg(long)]
     class: bool,
-    /// How long the compiler may take for a file, and how long a submission may run, in seconds
+    /// How long the compiler may take for a file, and how long the whole run may take, in seconds. A
+    /// probe ends after 5 at most, and so does the whole run after a probe that did not end
     #[arg(long, value_name = "SECONDS", default_value = "60",
           value_parser = values::whole(1_u64, 3600))]
     timeout: u64,
@@ -111,6 +113,11 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             format!("--out: expected a folder for a file of each of {} submissions", paths.len());
         return Err(CliError::Argument(message));
     }
+    if !has_bubblewrap() {
+        super::complain(
+            "note: bubblewrap is not installed, so submissions can read files of this account",
+        );
+    }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
     let settings = Settings {
         time: Duration::from_secs(arguments.timeout),
@@ -178,6 +185,7 @@ fn argument(error: check::error::CheckError) -> CliError {
 
 fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
     if !arguments.class {
+        arguments.submissions.iter().try_for_each(|path| refuse_class(path)).map_err(argument)?;
         return Ok(arguments.submissions.clone());
     }
     let classes = arguments.submissions.iter().map(|path| Submission::of_class(path));

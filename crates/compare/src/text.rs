@@ -64,9 +64,9 @@ impl Report {
         );
         text += &counts(&self.differences, self.tolerance);
         if let (Some(matched), Some(tried)) = (self.reading_matched, self.reading_tried) {
-            text += &format!("under this reading, {matched} of {tried} photons that differ match");
+            text += &format!("the reading explains {matched} of {tried} photons tried");
             text += &match left {
-                0 => ", and no record differs\n".to_owned(),
+                0 => ", and under it no record differs\n".to_owned(),
                 left => format!("; {} records still differ, near edges\n", thousands(left)),
             };
         }

@@ -53,6 +53,8 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     let is_identical = identical > (MOST_IDENTICAL * on_facets).max(2.0);
     let (same, exactly) =
         if is_identical && !is_repeated { (identical, "exactly ") } else { (repeated, "") };
+    let paths_come_again =
+        is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5);
     let mut findings = vec![
         fact(
             "finite",
@@ -86,12 +88,12 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
         ),
         fact(
             "same place",
-            transformation,
+            if paths_come_again { Some(Section::PhotonEmission.title()) } else { transformation },
             "hardly any two photons lie at the same place",
             format!("{} photons are {exactly}where another one is", of_all(same, on_facets)),
             !is_repeated && !is_identical,
             Weight::Fault,
-            if is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5) {
+            if paths_come_again {
                 "Whole paths come again: check that the generator is seeded once for the whole \
                  run, and that threads do not share a seed."
             } else if observation.repeats_by_rounding || observation.identical.is_none() {
@@ -107,7 +109,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     // Where many lie at the same place, they are crowded for that reason.
     let is_crowded = observation.crowding < SIGNIFICANCE && !is_repeated && !is_identical;
     findings.push(Finding {
-        p_value: Some(observation.crowding),
+        p_value: (!is_repeated && !is_identical).then_some(observation.crowding),
         ..fact(
             "spread",
             storage,

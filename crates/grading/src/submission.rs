@@ -113,7 +113,7 @@ pub fn grade_at_most(
             }));
             graded.grade.findings.extend(notes.left_out.iter().map(|reason| {
                 let expected = "numbers in every column that is judged";
-                let advice = "Write this column as the dump header does, or leave it out.";
+                let advice = "Write this column as photon_dump.hpp does, or leave it out.";
                 remark("columns", expected, &told(path, reason), advice)
             }));
             graded
@@ -309,7 +309,7 @@ fn not_readable(reason: &str) -> Finding {
         passed: false,
         weight: Weight::Grave,
         advice:
-            "Hand in the list that the dump header writes, or the PNG picture as the program wrote \
+            "Hand in the list that photon_dump.hpp writes, or the PNG picture as the program wrote \
                  it."
             .into(),
     }

@@ -23,6 +23,11 @@ const LONGEST_NAME: usize = 64;
 /// How comments start, which may hold the names of the columns: NumPy, CloudCompare, MATLAB.
 const COMMENTS: [&str; 3] = ["#", "//", "%"];
 
+/// Columns that viewers of points add, which say nothing of photons.
+const OF_VIEWERS: [&str; 8] = ["nx", "ny", "nz", "red", "green", "blue", "alpha", "quality"];
+/// No more unknown columns are told.
+const MOST_TOLD: usize = 8;
+
 /// Which column each of a file's is.
 #[derive(Debug)]
 pub(super) struct Naming {
@@ -77,7 +82,19 @@ impl Naming {
                 _ => return Err(format!("expected each column once, found '{column}' twice")),
             }
         }
-        let note = (!guessed.is_empty()).then(|| format!("taken: {}", guessed.join(", ")));
+        let unknown: Vec<String> = names
+            .iter()
+            .zip(&places)
+            .filter(|(name, place)| place.is_none() && !OF_VIEWERS.contains(name))
+            .map(|(name, _)| format!("'{}'", start(name)))
+            .take(MOST_TOLD)
+            .collect();
+        let notes: Vec<String> = [("taken", guessed), ("unknown, so not judged", unknown)]
+            .into_iter()
+            .filter(|(_, names)| !names.is_empty())
+            .map(|(what, names)| format!("{what}: {}", names.join(", ")))
+            .collect();
+        let note = (!notes.is_empty()).then(|| notes.join("; "));
         Ok(Self { columns: Columns::at(&places), places, note })
     }
 }

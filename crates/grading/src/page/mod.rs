@@ -129,7 +129,6 @@ impl<'a> Pages<'a> {
         let own = grade.misreading.and_then(|id| Some((id, *misreadings.get(id)?)));
         let mut rows = vec![
             (*correct, "dots as the handout's photons leave them".to_owned(), Verdict::Correct),
-            (*undecided, "too few photons to tell: needs a look".to_owned(), Verdict::Undecided),
             (
                 *plausible,
                 "dots that look incorrect, but finite, on surfaces, and indirect only".to_owned(),
@@ -142,6 +141,8 @@ impl<'a> Pages<'a> {
         );
         rows.push((*no_dots, "no dots".to_owned(), Verdict::NoDots));
         rows.push((*unreadable, "nothing that can be read".to_owned(), Verdict::Unreadable));
+        let few = "too few photons to tell: needs a look".to_owned();
+        rows.push((*undecided, few, Verdict::Undecided));
         let is_row = |row: &(f64, String, Verdict)| row.2 == grade.verdict && row.0 == grade.score;
         // The last of those that fit: a score of a misreading's own stands after the others.
         let chosen = rows.iter().rposition(is_row);
