@@ -1,5 +1,6 @@
 //! Solutions in the styles of twelve students, in folders as they are handed in: each section of
-//! each gets the right answer.
+//! each gets the right answer. The files are whole, with the framework's given functions, because
+//! that is what `check` has to read.
 
 mod support;
 

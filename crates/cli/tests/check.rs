@@ -71,3 +71,17 @@ fn a_class_gets_a_page_each_and_an_index() {
 fn a_missing_folder_and_a_list_of_two_are_refused() {
     fails("check {} {} --list out.csv", &[&solution(), &solution()], &["--list", "found 2"]);
 }
+
+/// Without `--class`, one student's files would be judged for all.
+#[test]
+fn a_class_that_is_not_called_one_is_refused() {
+    let class = folder();
+    for student in ["alice", "bob"] {
+        let home = class.path().join(student).join("src");
+        fs::create_dir_all(&home).expect("can be made");
+        for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+            fs::copy(solution().join(name), home.join(name)).expect("can be copied");
+        }
+    }
+    fails("check {}", &[class.path()], &["alice, bob", "--class"]);
+}

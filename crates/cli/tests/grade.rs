@@ -544,6 +544,11 @@ fn a_policy_sets_the_scores() {
         (r#"{ "correct": "4" }"#, &["policy.json", "expected f64"]),
         ("", &["policy.json"]),
         ("[]", &["policy.json", "sequence"]),
+        (
+            r#"{ "sections": { "Emission": 4 } }"#,
+            &["no section is called 'Emission'", "Photon Storage"],
+        ),
+        (r#"{ "sections": { "Photon Storage": 3 } }"#, &["add up to 3, not to 4"]),
         (r#"{ "no-dots": -1 }"#, &["policy.json", "'no-dots' is -1", "from 0 to 'correct', 4"]),
         (r#"{ "misreadings": { "no-offset": 5 } }"#, &["'no-offset' is 5"]),
         (r#"{ "misreadings": { "no-offset": -1 } }"#, &["'no-offset' is -1"]),

@@ -407,3 +407,18 @@ fn work_is_bounded_by_bytes() {
         );
     }
 }
+
+/// A column that means something else to its writer must not be passed over in silence.
+#[test]
+fn columns_of_other_names_are_reported() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let notes_of = |header: &str, row: &str| {
+        let path = folder.path().join("list.csv");
+        let rows = lines(|Vec3 { x, y, z }| format!("{x},{y},{z}{row}"));
+        std::fs::write(&path, format!("{header}\n{rows}")).expect("can be written");
+        let (_, notes) = load_at_most(&path, usize::MAX).expect("it is a list");
+        notes.guessed.unwrap_or_default()
+    };
+    assert_eq!(notes_of("x,y,z,dx,r", ",1,2"), "unknown, so not judged: 'dx', 'r'");
+    assert_eq!(notes_of("x,y,z,bounce,nx,red", ",1,0,9"), "");
+}

@@ -64,7 +64,7 @@ void PhotonMappingRenderer::GenericPhotonMapGeneration(PhotonKdtree& photonMap, 
 void PhotonMappingRenderer::TracePhoton(PhotonKdtree& photonMap, Ray* photonRay, glm::vec3 lightIntensity, std::vector<char>& path, float currentIOR, int remainingBounces)
 {
     /*
-     * Assignment 8 TODO: Trace the photon into the scene, store it and decide whether it is scattered.
+     * Assignment 8: Trace the photon into the scene, store it and decide whether it is scattered.
      * Paths: L is light, D is diffuse.
      */
     assert(photonRay);
