@@ -1,6 +1,7 @@
 //! Running the harness: again after every step in which it dies, so that one step never hides
 //! another.
 
+use std::ffi::OsString;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -12,8 +13,12 @@ use crate::kit::write;
 use crate::plan::{self, Step};
 use crate::sandbox::{Ending, Limits, MOST_BYTES, Outcome, Program};
 
-/// A step with a small scene takes far less; an endless loop is not waited for longer.
-const PATIENCE: Duration = Duration::from_secs(5);
+/// The processor time of a step with a small scene. It needs a thousandth of it.
+const PATIENCE: Duration = Duration::from_secs(3);
+/// So much longer may it take on the clock, on a busy machine.
+const BUSY: u32 = 5;
+/// The signal that ends a step whose processor time is used up.
+const SIGPROF: i32 = 27;
 /// After so many steps that died, the others are left out, except the whole run.
 const MOST_DEATHS: usize = 6;
 /// The memory of a submission, in MiB.
@@ -125,7 +130,8 @@ impl Observed {
     }
 }
 
-/// Runs the program `harness` in `folder`. Each run may take `time`.
+/// Runs the program `harness` in `folder`. The whole run may take `time`, of the processor and on
+/// the clock.
 ///
 /// # Errors
 /// When the program cannot be started or the plan cannot be written.
@@ -146,9 +152,12 @@ pub fn run(
         observed.log.current = None;
         observed.log.stack_overflowed = false;
         let has_waited = observed.deaths.iter().flatten().any(Death::is_time_out);
-        // Whoever has waited for an endless loop already waits no longer for the whole.
-        let time = if has_waited { PATIENCE.min(time) } else { time };
-        let outcome = run_from(harness, folder, &plan_path, first, time, &mut observed.log)?;
+        let mut times = Times::new(time);
+        if has_waited {
+            // Whoever has waited for an endless loop already waits no longer for the whole.
+            times.whole = times.small;
+        }
+        let outcome = run_from(harness, folder, &plan_path, first, times, &mut observed.log)?;
         observed.printed_bytes += outcome.printed_bytes;
         if observed.printed.is_empty() {
             observed.printed = outcome.printed.clone();
@@ -156,7 +165,7 @@ pub fn run(
         if observed.log.is_complete && !observed.log.is_broken {
             break;
         }
-        let death = death_of(&outcome, &observed.log, steps.get(first) == Some(&Step::Whole), time);
+        let death = death_of(&outcome, &observed.log, times.of(&observed.log));
         let Some(current) = observed.log.current else {
             if observed.log.steps.is_empty() {
                 observed.before_any = Some(death);
@@ -195,22 +204,56 @@ pub fn run(
     Ok(observed)
 }
 
+/// How long a step may take.
+#[derive(Clone, Copy)]
+struct Time {
+    of_processor: Duration,
+    on_clock: Duration,
+}
+
+#[derive(Clone, Copy)]
+struct Times {
+    small: Time,
+    whole: Time,
+}
+
+impl Times {
+    fn new(time: Duration) -> Self {
+        let small =
+            Time { of_processor: PATIENCE.min(time), on_clock: (BUSY * PATIENCE).min(time) };
+        Self { small, whole: Time { of_processor: time, on_clock: time } }
+    }
+
+    /// Of the step that runs.
+    fn of(self, log: &Log) -> Time {
+        let is_whole = log.current == Some(plan::steps().len() - 1);
+        if is_whole { self.whole } else { self.small }
+    }
+}
+
 fn run_from(
     harness: &Path,
     folder: &Path,
     plan_path: &Path,
     first: usize,
-    time: Duration,
+    times: Times,
     log: &mut Log,
 ) -> Result<Outcome, CheckError> {
+    let seconds = |time: Time| OsString::from(time.of_processor.as_secs().max(1).to_string());
     let program = Program {
-        command: vec![harness.into(), plan_path.into(), first.to_string().into()],
+        command: vec![
+            harness.into(),
+            plan_path.into(),
+            first.to_string().into(),
+            seconds(times.small),
+            seconds(times.whole),
+        ],
         folder: folder.to_owned(),
         environment: Vec::new(),
         writes: false,
     };
+    let time = times.small.on_clock + times.whole.on_clock;
     let limits = Limits { time, memory: MEMORY, file_blocks: 0 };
-    let whole = plan::steps().len() - 1;
     let mut reader = Reader::default();
     // One step begins after another; each has its own time.
     let mut step_started = Instant::now();
@@ -223,21 +266,17 @@ fn run_from(
         if log.current != last_step {
             (last_step, step_started) = (log.current, Instant::now());
         }
-        let longest = if log.current == Some(whole) { time } else { PATIENCE.min(time) };
-        Some(longest.saturating_sub(step_started.elapsed()))
+        Some(times.of(log).on_clock.saturating_sub(step_started.elapsed()))
     })
 }
 
-fn death_of(outcome: &Outcome, log: &Log, is_whole: bool, time: Duration) -> Death {
+fn death_of(outcome: &Outcome, log: &Log, time: Time) -> Death {
     if log.stack_overflowed {
         return Death::StackOverflow;
     }
     match outcome.ending {
-        Ending::TimeOut => {
-            let is_whole = is_whole || log.current == Some(plan::steps().len() - 1);
-            let seconds = if is_whole { time } else { PATIENCE.min(time) };
-            Death::TimeOut { seconds: seconds.as_secs() }
-        }
+        Ending::TimeOut => Death::TimeOut { seconds: time.on_clock.as_secs() },
+        Ending::Signal(SIGPROF) => Death::TimeOut { seconds: time.of_processor.as_secs() },
         Ending::TooMuchOutput => Death::TooMuchOutput,
         Ending::Code(code) => Death::Exit { code },
         Ending::Signal(signal) => Death::Signal { signal },

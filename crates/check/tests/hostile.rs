@@ -12,8 +12,10 @@ use check::find::Submission;
 use check::run::run;
 use check::sections::{Status, judge};
 
-/// How long a run may take at most; a step of a small scene has its own patience within.
-const TIME: Duration = Duration::from_secs(2);
+/// How long a whole run may take at most.
+const TIME: Duration = Duration::from_secs(60);
+/// How long all of it may take, also on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(40);
 
 /// What the light does, and what is said of it under Photon Emission; nothing where it comes to
 /// nothing.
@@ -60,7 +62,7 @@ fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
         for verdict in &verdicts[1..] {
             assert_eq!(verdict.status, Status::Right, "{deed}: {verdict:#?}");
         }
-        assert!(start.elapsed() < 12 * TIME, "{deed} takes {:?}", start.elapsed());
+        assert!(start.elapsed() < PATIENCE, "{deed} takes {:?}", start.elapsed());
     }
     for (deed, words) in [("static-exit", "exit code 0"), ("static-loop", "does not end")] {
         let death = observed(deed).before_any.expect("it never begins");

@@ -1,7 +1,5 @@
 //! Lists without numbers: deleted, inserted and moved records are counted right.
 
-use std::time::Instant;
-
 use glam::Vec3;
 use proptest::prelude::*;
 
@@ -110,20 +108,20 @@ proptest! {
 
 /// A run of 1,000,000 photons stores 50,000 records; with every direct hit, 286,000.
 #[test]
-fn comparing_takes_under_a_second() {
+fn long_lists_are_counted() {
     let edits: Vec<_> =
-        [Edit::Keep, Edit::Insert(3), Edit::Delete, Edit::Move].repeat(25_000 / 4).to_vec();
-    let start = Instant::now();
+        [Edit::Keep, Edit::Insert(3), Edit::Delete, Edit::Move].repeat(50_000 / 4).to_vec();
     let (counted, expected) = counted_and_expected(148, &edits);
     assert_eq!(counted, expected);
-    assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
+}
 
-    // The worst there is: all in one place, or nothing alike.
+/// The worst there is: all in one place, or nothing alike. If time grew with the square of the
+/// records, this would take minutes.
+#[test]
+fn the_worst_lists_come_to_an_end() {
     let same = |count| list(vec![Vec3::ONE; count]);
-    let start = Instant::now();
-    align(&same(50_000), &same(49_000), TOLERANCE);
+    assert_eq!(align(&same(500_000), &same(490_000), TOLERANCE).len(), 500_000);
     let mut rand = photon_random(1, 1);
-    let mut random = || list((0..50_000).map(|_| point(&mut rand)).collect());
+    let mut random = || list((0..500_000).map(|_| point(&mut rand)).collect());
     align(&random(), &random(), TOLERANCE);
-    assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
 }

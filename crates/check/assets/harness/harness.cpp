@@ -1,7 +1,10 @@
 // Runs the two handed-in files: on small scenes with known answers, one section of the handout at a
 // time, and on the handout's scene. What they do is recorded (recorder.hpp) and judged elsewhere.
 //
-//   harness PLAN FIRST    carries out the steps of the file PLAN from number FIRST on
+//   harness PLAN FIRST SECONDS WHOLE
+//
+// carries out the steps of the file PLAN from number FIRST on. A step on a small scene has SECONDS of
+// processor time, the whole run has WHOLE; SIGPROF ends what takes longer.
 //
 // A plan has one item a line:
 //
@@ -328,8 +331,8 @@ void run_whole(const Plan& plan, const Step& step) {
 int main(int argc, char** argv) {
     watch_the_stack();
     Plan plan;
-    if (argc != 3 || !read_plan(argv[1], plan)) {
-        std::fprintf(stderr, "harness: expected a plan and the number of a step\n");
+    if (argc != 5 || !read_plan(argv[1], plan)) {
+        std::fprintf(stderr, "harness: expected a plan, the number of a step and two times\n");
         return 2;
     }
     if (!system_calls_are_filtered()) {
@@ -338,6 +341,8 @@ int main(int argc, char** argv) {
     for (std::size_t i = std::stoul(argv[2]); i < plan.steps.size(); ++i) {
         const Step& step = plan.steps[i];
         begin_step(static_cast<std::uint32_t>(i));
+        const char* const seconds = argv[step.kind == Step::whole ? 4 : 3];
+        give_processor_time(static_cast<unsigned>(std::stoul(seconds)));
         switch (step.kind) {
         case Step::emit:
             run_emit(plan, step);

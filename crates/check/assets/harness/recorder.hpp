@@ -54,6 +54,7 @@ void all_steps_ended();
 
 // In guard.cpp.
 void watch_the_stack();
+void give_processor_time(unsigned seconds);
 bool system_calls_are_filtered();
 
 // Sends what is still in memory.
