@@ -37,7 +37,8 @@ pub struct CheckArgs {
     #[arg(long)]
     class: bool,
     /// How long the compiler may take for a file, and how long the whole run may take, in
-    /// seconds. A probe ends after 5 at most, and so does the whole run after a probe that hung
+    /// seconds. A probe has 3 seconds of processor time at most, and so has the whole run after a
+    /// probe that hung
     #[arg(long, value_name = "SECONDS", default_value = "60",
           value_parser = values::whole(1_u64, 3600))]
     timeout: u64,
