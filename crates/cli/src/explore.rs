@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use explore::Exploration;
-use explore::comparison::{Comparison, Other};
+use explore::comparison::{ListComparison, Other};
 use explore::misreading;
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
@@ -81,7 +81,7 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         (None, None) => None,
     };
     let reference = || list(records.clone());
-    let comparison = other.map(|(other, list)| Comparison::new(other, reference(), list, &run));
+    let comparison = other.map(|(other, list)| ListComparison::new(other, reference(), list, &run));
 
     let places = records.iter().map(|record| record.position.as_dvec3());
     run.renderer.diffuse_map = PhotonMap::new(places.map(|place| run.placement.to_scene(place)));

@@ -42,19 +42,19 @@ pub enum Other {
 
 /// A list held against the run's.
 #[derive(Debug)]
-pub struct Comparison {
+pub struct ListComparison {
     other: Other,
     report: Report,
     pairings: Vec<Pairing>,
     reference: PhotonList,
     submission: PhotonList,
     tolerance: f32,
-    step: Option<Step>,
+    step: Option<PartingStep>,
 }
 
 /// The step of a photon at which the lists part.
 #[derive(Debug)]
-struct Step {
+struct PartingStep {
     photon: u64,
     bounce: usize,
     name: &'static str,
@@ -80,7 +80,7 @@ pub(crate) struct Overlay {
     pub extra_surface: Vec<u16>,
 }
 
-impl Comparison {
+impl ListComparison {
     /// Compares `submission` with `reference`, the list of `run`.
     pub fn new(other: Other, reference: PhotonList, submission: PhotonList, run: &Run) -> Self {
         let tolerance = TOLERANCE * run.placement.length_to_world(scene_size(run.scene()));
@@ -132,7 +132,7 @@ impl Comparison {
         photons.collect()
     }
 
-    fn find_step(&self, run: &Run) -> Option<Step> {
+    fn find_step(&self, run: &Run) -> Option<PartingStep> {
         let divergence = self.report.first_divergence.as_ref()?;
         let photon = divergence.photon?;
         let story = explain(run, photon)?;
@@ -157,7 +157,13 @@ impl Comparison {
         let (reference, submission) = self.records_of(photon, recorded);
         sides.extend(values(&story, recorded, reference, submission));
         let other = submission.map(|record| record.position).filter(|place| place.is_finite());
-        Some(Step { photon, bounce, name, sides, other: other.map(|place| place.to_array()) })
+        Some(PartingStep {
+            photon,
+            bounce,
+            name,
+            sides,
+            other: other.map(|place| place.to_array()),
+        })
     }
 
     /// The records of bounce `bounce` of `photon` in both lists.

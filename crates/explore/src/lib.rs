@@ -22,7 +22,7 @@ use oracle::summary::SurfaceSummary;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
 
-use comparison::Comparison;
+use comparison::ListComparison;
 
 /// What a page shows.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub struct Exploration<'a> {
     /// The photon on which the page opens; the first stored one if none is named.
     pub photon: Option<u64>,
     /// The list that is laid over the run's.
-    pub comparison: Option<&'a Comparison>,
+    pub comparison: Option<&'a ListComparison>,
 }
 
 /// The name of `run` in its page.

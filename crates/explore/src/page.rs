@@ -117,7 +117,7 @@ fn meta(exploration: &Exploration, paths: &Paths) -> String {
         "dotSize": paths.dot_size,
         "offset": paths.offset,
         "picture": format!("data:image/png;base64,{}", STANDARD.encode(png)),
-        "comparison": exploration.comparison.map(super::comparison::Comparison::meta),
+        "comparison": exploration.comparison.map(super::comparison::ListComparison::meta),
         "source": SOURCE,
         "sections": paths.columns.sections(),
     });

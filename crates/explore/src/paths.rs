@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use variants::run::Run;
 
 use super::Exploration;
-use super::comparison::Comparison;
+use super::comparison::ListComparison;
 use super::pack::PackedColumns;
 
 /// A page shows all stored photons up to so many; of more, an evenly thinned sample of whole paths.
@@ -295,7 +295,7 @@ fn camera(is_handout: bool, faces: &[PageFace], size: f32) -> Value {
     })
 }
 
-impl Comparison {
+impl ListComparison {
     /// Adds what the page reads of the overlay; `places` has the place of each record of the
     /// reference among the stored photons of the page.
     fn add_columns(&self, columns: &mut PackedColumns, places: &[Option<u32>]) {

@@ -5,7 +5,7 @@ mod support;
 
 use browser::launch;
 use compare::explain::explain;
-use explore::comparison::{Comparison, Other};
+use explore::comparison::{ListComparison, Other};
 use explore::misreading;
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
@@ -39,7 +39,7 @@ fn every_misreading_opens_where_it_differs() {
         let Other::Misreading { section, .. } = other else { panic!("{name} is a misreading") };
         let title = section.title();
         let list = PhotonList { records: records.clone(), ..reference.list() };
-        let comparison = Comparison::new(other, reference.list(), list, &reference.run);
+        let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
         let page = write_page(name, &reference.exploration(Some(&comparison)).page());
         browser.open(&page, "");
         let text = |id: &str| browser.text(&format!("document.getElementById('{id}').textContent"));
@@ -92,7 +92,7 @@ fn a_submission_shows_where_it_parts() {
     extra.position.z += 0.5;
     list.records.insert(900, extra);
     let other = Other::Submission("mine.csv".to_owned());
-    let comparison = Comparison::new(other, reference.list(), list, &reference.run);
+    let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
     let page = write_page("positions", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
     let counts = browser.run("page.run.comparison.counts");
@@ -109,7 +109,7 @@ fn a_submission_shows_where_it_parts() {
     browser.has_been_quiet();
 
     let other = Other::Submission("same.csv".to_owned());
-    let same = Comparison::new(other, reference.list(), reference.list(), &reference.run);
+    let same = ListComparison::new(other, reference.list(), reference.list(), &reference.run);
     let page = write_page("same", &reference.exploration(Some(&same)).page());
     browser.open(&page, "");
     assert_eq!(
@@ -130,7 +130,7 @@ fn hostile_names_stay_names() {
     let mut list = reference.list();
     list.records[10].position.x += 0.2;
     let other = Other::Submission(name.to_owned());
-    let comparison = Comparison::new(other, reference.list(), list, &reference.run);
+    let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
     let page = write_page("hostile", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
     assert_eq!(browser.run("window.hurt"), json!(null));

@@ -18,7 +18,7 @@ const NODES: [[f64; 3]; 3] = [
 ];
 
 /// A triangle that carries three nodes.
-pub struct Cell {
+pub struct MeshCell {
     pub plate: usize,
     pub nodes: [DVec3; 3],
     /// Area in square scene units.
@@ -35,7 +35,7 @@ enum Branch {
 }
 
 pub struct Mesh {
-    pub cells: Vec<Cell>,
+    pub cells: Vec<MeshCell>,
     trees: Vec<Branch>,
     widths: Option<&'static [f64]>,
 }
@@ -174,7 +174,7 @@ impl Mesh {
             (2.0 * rise, 2.0 * rise.dot(b) + 1.0 / 3.0)
         });
         let nodes = NODES.map(|[a, b, c]| triangle[0] * a + triangle[1] * b + triangle[2] * c);
-        self.cells.push(Cell { plate, nodes, area: 0.5 * double_area.abs(), basis });
+        self.cells.push(MeshCell { plate, nodes, area: 0.5 * double_area.abs(), basis });
         Branch::Cell(self.cells.len() - 1)
     }
 

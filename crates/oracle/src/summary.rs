@@ -115,7 +115,7 @@ impl Tally {
                             .map(|law| law.by_bounce.get(bounce - 1).copied().unwrap_or_default());
                         // One photon is stored at most once at its k-th bounce: a binomial.
                         let variance = mean.map(|mean| mean.value * (1.0 - mean.value));
-                        Cell::new(bounce, count(bounce), emitted, mean, variance)
+                        SummaryCell::new(bounce, count(bounce), emitted, mean, variance)
                     })
                     .collect();
                 let sum = |first: usize| (first..=last).map(count).sum::<u64>();
@@ -125,9 +125,10 @@ impl Tally {
                 let measured = self.late_squares[group] as f64 / emitted as f64
                     - (sum(COLUMNS + 1) as f64 / emitted as f64).powi(2);
                 let first = COLUMNS + 1;
-                let late = Cell::new(first, sum(first), emitted, mean(first), Some(measured));
+                let late =
+                    SummaryCell::new(first, sum(first), emitted, mean(first), Some(measured));
                 let variance = law.as_ref().and_then(|law| law.variance);
-                let all = Cell::new(0, sum(1), emitted, mean(1), variance);
+                let all = SummaryCell::new(0, sum(1), emitted, mean(1), variance);
                 let stored = all.stored;
                 SurfaceSummary { name, stored, expected: all.expected, z: all.z, by_bounce, late }
             })
@@ -172,7 +173,7 @@ fn law(expected: &ExpectedTable, members: std::ops::Range<usize>, max_bounces: u
 
 /// One number of the table.
 #[derive(Clone, Debug, Serialize)]
-pub struct Cell {
+pub struct SummaryCell {
     /// How often the photons had bounced.
     pub bounce: usize,
     /// How many were stored.
@@ -184,7 +185,7 @@ pub struct Cell {
     pub z: Option<f64>,
 }
 
-impl Cell {
+impl SummaryCell {
     fn new(
         bounce: usize,
         stored: u64,
@@ -216,10 +217,10 @@ pub struct SurfaceSummary {
     /// deviation comes from the covariance of whole paths.
     pub z: Option<f64>,
     /// The same for each bounce, from the first on.
-    pub by_bounce: Vec<Cell>,
+    pub by_bounce: Vec<SummaryCell>,
     /// Those that bounced more often than the table has columns, together.
     #[serde(skip)]
-    pub late: Cell,
+    pub late: SummaryCell,
 }
 
 impl SurfaceSummary {
@@ -238,8 +239,12 @@ pub fn table(surfaces: &[SurfaceSummary]) -> String {
     let mut rows = vec![heads];
     for surface in surfaces {
         let mut row = vec![surface.name.clone()];
-        let whole =
-            Cell { bounce: 0, stored: surface.stored, expected: surface.expected, z: surface.z };
+        let whole = SummaryCell {
+            bounce: 0,
+            stored: surface.stored,
+            expected: surface.expected,
+            z: surface.z,
+        };
         let shown = surface.by_bounce.iter().take(COLUMNS).chain([&surface.late, &whole]);
         row.extend(shown.map(|cell| {
             let expected = cell.expected.map(|expected| format!(" / {expected:.1}"));

@@ -125,7 +125,7 @@ pub struct Integral {
 }
 
 /// A triangle of the adaptive cubature, its integral, and those of its four quarters.
-struct Element {
+struct CubatureElement {
     tag: usize,
     quarters: [([DVec3; 3], Vec<f64>); 4],
     errors: Vec<f64>,
@@ -167,9 +167,9 @@ pub fn integrate(
         let errors: Vec<f64> = (0..count)
             .map(|i| (whole[i] - quarters.iter().map(|(_, q)| q[i]).sum::<f64>()).abs())
             .collect();
-        Element { tag, error: errors.iter().sum(), quarters, errors }
+        CubatureElement { tag, error: errors.iter().sum(), quarters, errors }
     };
-    let mut elements: Vec<Element> = triangles
+    let mut elements: Vec<CubatureElement> = triangles
         .into_par_iter()
         .map(|(tag, triangle)| element(tag, triangle, sum(tag, triangle)))
         .collect();
@@ -194,7 +194,7 @@ pub fn integrate(
             elements.extend(refined);
             break;
         }
-        let fresh: Vec<[Element; 4]> = refined
+        let fresh: Vec<[CubatureElement; 4]> = refined
             .into_par_iter()
             .map(|e| e.quarters.map(|(triangle, whole)| element(e.tag, triangle, whole)))
             .collect();

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::PageSection;
 use super::csv::{Table, digits, percent, short};
-use super::plot::{Axes, Line, Mark, draw};
+use super::plot::{Axes, Mark, PlotLine, draw};
 use super::speed_runs::{Speed, SpeedRun};
 use super::statistics::{Estimate, FEWEST, Runs, log_log_slope, rms, variance_of_one};
 
@@ -223,7 +223,7 @@ fn plot(speed: &Speed, curves: &[Curve]) -> String {
     let line = |(colour, curve): (usize, &Curve)| {
         let sizes = || speed.sizes.iter().zip(&curve.rms);
         let known = sizes().filter(|(size, _)| has_interval(**size, curve.fewest));
-        Line {
+        PlotLine {
             name: format!("{} (bars: 95 %)", curve.name),
             colour,
             mark: Mark::Circles,
@@ -233,7 +233,7 @@ fn plot(speed: &Speed, curves: &[Curve]) -> String {
     };
     let mut lines: Vec<_> = curves.iter().enumerate().map(line).collect();
     let theory = |size: &u64| (*size as f64, speed.deviation_of_one() / (*size as f64).sqrt());
-    lines.push(Line {
+    lines.push(PlotLine {
         name: "total, theory (slope -1/2)".to_owned(),
         colour: 3,
         mark: Mark::Dashes,

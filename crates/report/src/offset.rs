@@ -9,7 +9,7 @@ use super::csv::{Table, digits, short};
 use super::hits::{look_at_paths, surface_hits};
 use super::judge::{HitJudge, HitVerdict};
 use super::plan::Plan;
-use super::plot::{Axes, Line, Mark, draw};
+use super::plot::{Axes, Mark, PlotLine, draw};
 use super::rules::{HitRule, cases};
 use super::statistics::most_per_million;
 use super::transform::{Displacement, as_it_comes, as_loaded};
@@ -227,7 +227,7 @@ fn plot(cases: &[OffsetCase]) -> String {
         (HitRule::Fixed(1e-3), Mark::Circles),
         (HitRule::Reference, Mark::Hollow),
     ];
-    let lines = |amount: fn(Displacement) -> Option<f64>| -> Vec<Line> {
+    let lines = |amount: fn(Displacement) -> Option<f64>| -> Vec<PlotLine> {
         let line = |(colour, (rule, mark)): (usize, &(HitRule, Mark))| {
             let of_rule = cases.iter().filter(|case| case.rule == *rule);
             let point = |case: &OffsetCase| {
@@ -235,7 +235,7 @@ fn plot(cases: &[OffsetCase]) -> String {
                 let wrong = if case.wrong() == 0.0 { half_a_photon } else { case.wrong() };
                 Some((amount(case.place)?, wrong))
             };
-            Line {
+            PlotLine {
                 name: format!("offset: {}", rule.name()),
                 colour,
                 mark: *mark,

@@ -37,7 +37,7 @@ impl Mark {
 }
 
 /// Points of one kind.
-pub struct Line {
+pub struct PlotLine {
     /// In the legend.
     pub name: String,
     /// Number in the palette.
@@ -69,7 +69,7 @@ type PlotArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type DrawingFailure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// Draws the plots below one another and gives the SVG.
-pub fn draw(plots: &[(Axes, Vec<Line>)]) -> String {
+pub fn draw(plots: &[(Axes, Vec<PlotLine>)]) -> String {
     let mut svg = String::new();
     {
         let size = (WIDTH, HEIGHT * plots.len() as u32);
@@ -82,7 +82,7 @@ pub fn draw(plots: &[(Axes, Vec<Line>)]) -> String {
 
 fn draw_all<'a>(
     root: &PlotArea<'a>,
-    plots: &[(Axes, Vec<Line>)],
+    plots: &[(Axes, Vec<PlotLine>)],
 ) -> Result<(), DrawingFailure<'a>> {
     root.fill(&WHITE)?;
     for (area, (axes, lines)) in root.split_evenly((plots.len(), 1)).iter().zip(plots) {
@@ -94,7 +94,7 @@ fn draw_all<'a>(
 fn draw_one<'a>(
     area: &PlotArea<'a>,
     axes: &Axes,
-    lines: &[Line],
+    lines: &[PlotLine],
 ) -> Result<(), DrawingFailure<'a>> {
     let (area, legend) = area.split_horizontally(WIDTH - LEGEND);
     let points = || lines.iter().flat_map(|line| line.points.iter());
@@ -146,7 +146,7 @@ fn draw_one<'a>(
 }
 
 /// Names the lines, beside the plot, where nothing is hidden.
-fn draw_legend<'a>(area: &PlotArea<'a>, lines: &[Line]) -> Result<(), DrawingFailure<'a>> {
+fn draw_legend<'a>(area: &PlotArea<'a>, lines: &[PlotLine]) -> Result<(), DrawingFailure<'a>> {
     for (row, line) in lines.iter().enumerate() {
         let y = 60 + 24 * row as i32;
         let colour = PALETTE[line.colour % PALETTE.len()];

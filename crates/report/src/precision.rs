@@ -9,7 +9,7 @@ use super::PageSection;
 use super::both_precisions::{Path, double, single};
 use super::csv::{Table, digits, short};
 use super::plan::Plan;
-use super::plot::{Axes, Line, Mark, draw};
+use super::plot::{Axes, Mark, PlotLine, draw};
 use super::statistics::{most_per_million, quantile};
 use model::facets::facet_of_triangles;
 use photon_mapping::assignment8;
@@ -211,7 +211,7 @@ fn plot(precision: &Precision) -> String {
             .take_while(|tail| tail * count as f64 >= 1.0)
             .map(|tail| (quantile(distances, 1.0 - tail), tail))
             .filter(|(distance, _)| *distance > 1e-9);
-        Line {
+        PlotLine {
             name: format!("hit {}", hit + 1),
             colour: hit,
             mark: Mark::Plain,

@@ -7,7 +7,7 @@ use super::PageSection;
 use super::csv::{Table, digits, percent, short};
 use super::hits::hits_by_bounce;
 use super::plan::Plan;
-use super::plot::{Axes, Line, Mark, draw};
+use super::plot::{Axes, Mark, PlotLine, draw};
 use super::statistics::{Estimate, Runs, log_log_slope, rms, variance_ratio};
 use oracle::table::ExpectedTable;
 use variants::run::Run;
@@ -193,7 +193,7 @@ fn plot(samplers: &Samplers) -> String {
     for (colour, quantity) in [0, 1, 2, HITS].into_iter().enumerate() {
         for (sampler, mark) in [(Sampler::ChaCha, Mark::Hollow), (Sampler::Sobol, Mark::Circles)] {
             let points = samplers.sizes.iter().zip(samplers.curve(sampler, quantity));
-            lines.push(Line {
+            lines.push(PlotLine {
                 name: format!("{}, {}", NAMES[quantity], sampler.name()),
                 colour,
                 mark,

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use fast::lanes::offset::Offset;
-use fixtures::judge::{Judge, Judgement};
+use fixtures::judge::{Judge, PathJudgement};
 use fixtures::{handout, handout_on_a_plain, handout_over_a_square, light, list, moved_handout};
 use glam::{DVec3, Vec3};
 use model::placement::Placement;
@@ -25,7 +25,7 @@ use variants::run::Run;
 
 /// Whether `judgement` of `count` photons has nothing impossible in it, and on the handout's
 /// surfaces what the oracle of the unmoved scene expects.
-fn check(judgement: &Judgement, count: u64, case: &str) {
+fn check(judgement: &PathJudgement, count: u64, case: &str) {
     assert_eq!(judgement.impossible(), [0; 3], "{case}: self-hits, leaks, under boxes");
     let expected = ExpectedTable::of_assignment8();
     for (surface, row) in expected.surfaces.iter().enumerate() {

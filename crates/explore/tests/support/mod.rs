@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use explore::Exploration;
-use explore::comparison::Comparison;
+use explore::comparison::ListComparison;
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use image::RgbImage;
@@ -61,7 +61,7 @@ impl Traced {
     }
 
     /// What its page shows, with `comparison` laid over it.
-    pub fn exploration<'a>(&'a self, comparison: Option<&'a Comparison>) -> Exploration<'a> {
+    pub fn exploration<'a>(&'a self, comparison: Option<&'a ListComparison>) -> Exploration<'a> {
         Exploration {
             run: &self.run,
             is_handout: true,

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::lines::{Line, numbers};
+use super::lines::{ObjLine, numbers};
 
 /// Numbers larger than this are refused: their products would not be finite.
 const LARGEST_COORDINATE: f64 = 1e9;
@@ -49,7 +49,7 @@ pub fn starts(word: &str) -> bool {
 }
 
 /// The position in the line `v`.
-pub fn vertex(line: &Line) -> Result<DVec3, String> {
+pub fn vertex(line: &ObjLine) -> Result<DVec3, String> {
     let mut words = line.words();
     let position = vector(&mut words, "v")?;
     let more: Vec<&str> = words.collect();
@@ -67,7 +67,7 @@ pub fn vertex(line: &Line) -> Result<DVec3, String> {
 }
 
 /// The normal in the line `vn`.
-pub fn normal(line: &Line) -> Result<Vec3, String> {
+pub fn normal(line: &ObjLine) -> Result<Vec3, String> {
     let normal = turn(vector(&mut line.words(), "vn")?).as_vec3();
     normal.try_normalize().ok_or_else(|| "expected a normal longer than zero after 'vn'".to_owned())
 }

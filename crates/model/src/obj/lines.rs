@@ -24,7 +24,7 @@ pub fn ends_before(text: &str) -> usize {
 }
 
 /// A line of a file, with all that continue it.
-pub struct Line {
+pub struct ObjLine {
     /// Counted from 1.
     pub number: usize,
     /// The first word.
@@ -33,7 +33,7 @@ pub struct Line {
     pub rest: String,
 }
 
-impl Line {
+impl ObjLine {
     /// The words after the keyword, up to a comment.
     pub fn words(&self) -> impl Iterator<Item = &str> {
         // Within a word there is no comment: `1.#IND` is a number.
@@ -43,7 +43,7 @@ impl Line {
 
 /// The lines of `text` that are neither empty nor a comment. `starts` tells which words start a
 /// line of this format.
-pub fn lines(text: &str, starts: impl Fn(&str) -> bool) -> impl Iterator<Item = Line> {
+pub fn lines(text: &str, starts: impl Fn(&str) -> bool) -> impl Iterator<Item = ObjLine> {
     let text = text.trim_start_matches('\u{feff}');
     let mut rows = rows(text).enumerate().peekable();
     std::iter::from_fn(move || {
@@ -56,7 +56,7 @@ pub fn lines(text: &str, starts: impl Fn(&str) -> bool) -> impl Iterator<Item = 
             let row = continued(row, &mut rows, &starts);
             let (keyword, rest) = row.split_once(char::is_whitespace).unwrap_or((&row, ""));
             let [keyword, rest] = [keyword, rest.trim()].map(str::to_owned);
-            return Some(Line { number: index + 1, keyword, rest });
+            return Some(ObjLine { number: index + 1, keyword, rest });
         }
     })
 }
@@ -94,12 +94,12 @@ fn continued<'a>(
 }
 
 /// The place in a file that is being read, for errors.
-pub struct Place {
+pub struct ObjPlace {
     pub path: PathBuf,
     pub line: usize,
 }
 
-impl Place {
+impl ObjPlace {
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned(), line: 1 }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
-use super::lines::{Line, Place, lines, numbers};
+use super::lines::{ObjLine, ObjPlace, lines, numbers};
 use super::{Flaw, ModelError};
 
 /// A response this far outside of 0 to 1 is the rounding of the end it is close to.
@@ -39,7 +39,7 @@ impl Materials {
     /// # Errors
     /// When a response is no material's.
     pub fn read(&mut self, path: &Path, text: &str) -> Result<(), Flaw> {
-        let mut place = Place::new(path);
+        let mut place = ObjPlace::new(path);
         let mut current = String::new();
         let starts = |word: &str| matches!(word, "newmtl" | "Ka" | "Kd" | "Ks" | "illum");
         for line in lines(text, starts) {
@@ -75,7 +75,7 @@ impl Materials {
         flaws.min_by_key(|flaw| (&flaw.path, flaw.line)).cloned()
     }
 
-    fn define(&mut self, name: &str, place: &Place) {
+    fn define(&mut self, name: &str, place: &ObjPlace) {
         if self.by_name.contains_key(name) {
             return;
         }
@@ -116,7 +116,7 @@ impl Materials {
 
 impl Definition {
     /// Takes the response of `line`; two that differ leave none.
-    fn respond(&mut self, line: &Line, name: &str, place: &Place) {
+    fn respond(&mut self, line: &ObjLine, name: &str, place: &ObjPlace) {
         let response = response(line).map_err(|message| place.flaw(message));
         let differs = self.has_response && self.response.is_ok() && self.response != response;
         self.response =
@@ -129,7 +129,7 @@ impl Definition {
     }
 }
 
-fn response(line: &Line) -> Result<Vec3, String> {
+fn response(line: &ObjLine) -> Result<Vec3, String> {
     let words: Vec<&str> = line.words().collect();
     let mut words = match words.as_slice() {
         [grey] => vec![*grey; 3],
@@ -154,7 +154,7 @@ fn at_comment(name: &str) -> Option<(&str, &str)> {
 /// words that name a file do.
 pub fn read_libraries(
     names: &str,
-    place: &Place,
+    place: &ObjPlace,
     materials: &mut Materials,
     read: impl Fn(&str) -> Result<(PathBuf, String), ModelError>,
 ) -> Result<(), ModelError> {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::{DVec3, Vec3};
 
 use super::keywords::{REFUSED, THIN, WITHOUT_AREA, normal, starts, vertex};
-use super::lines::{Line, Place, lines};
+use super::lines::{ObjLine, ObjPlace, lines};
 use super::materials::{Materials, read_libraries};
 use super::polygon::{MOST_CORNERS, triangulate};
 use super::{Flaw, Model, ModelError, ModelTriangle};
@@ -23,13 +23,13 @@ const MOST_MESH_OBJECTS: usize = 65_535;
 const MOST_NOTES: usize = 20;
 
 /// A value of the file, or what is wrong with it: no face need use it.
-type Value<T> = Result<T, Box<Flaw>>;
+type ObjValue<T> = Result<T, Box<Flaw>>;
 
-struct Reader<Library> {
-    place: Place,
+struct ObjReader<Library> {
+    place: ObjPlace,
     read_library: Library,
-    vertices: Vec<Value<DVec3>>,
-    normals: Vec<Value<Vec3>>,
+    vertices: Vec<ObjValue<DVec3>>,
+    normals: Vec<ObjValue<Vec3>>,
     materials: Materials,
     object: String,
     /// The name that `usemtl` gives, and its line.
@@ -50,8 +50,8 @@ pub fn read_model(
     text: &str,
     read_library: impl Fn(&str) -> Result<(PathBuf, String), ModelError>,
 ) -> Result<Model, ModelError> {
-    let mut reader = Reader {
-        place: Place::new(path),
+    let mut reader = ObjReader {
+        place: ObjPlace::new(path),
         read_library,
         vertices: Vec::new(),
         normals: Vec::new(),
@@ -72,8 +72,8 @@ pub fn read_model(
     reader.finish()
 }
 
-impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library> {
-    fn line(&mut self, line: Line) -> Result<(), ModelError> {
+impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> ObjReader<Library> {
+    fn line(&mut self, line: ObjLine) -> Result<(), ModelError> {
         match line.keyword.as_str() {
             "v" => self.vertices.push(self.value(vertex(&line))),
             "vn" => self.normals.push(self.value(normal(&line))),
@@ -112,11 +112,11 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library>
         Ok(())
     }
 
-    fn value<T>(&self, value: Result<T, String>) -> Value<T> {
+    fn value<T>(&self, value: Result<T, String>) -> ObjValue<T> {
         value.map_err(|message| Box::new(self.place.flaw(message)))
     }
 
-    fn leave_out(&mut self, line: Line) {
+    fn leave_out(&mut self, line: ObjLine) {
         let known = self.left_out.iter().position(|(keyword, ..)| *keyword == line.keyword);
         if let Some(known) = known {
             self.left_out[known].2 += 1;
@@ -125,7 +125,7 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library>
         }
     }
 
-    fn face(&mut self, line: &Line) -> Result<(), ModelError> {
+    fn face(&mut self, line: &ObjLine) -> Result<(), ModelError> {
         let corners: Vec<_> =
             line.words().map(|corner| self.corner(corner)).collect::<Result<_, _>>()?;
         if corners.len() < 3 {
@@ -187,7 +187,12 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> Reader<Library>
         })
     }
 
-    fn element<'a, T>(&self, all: &'a [Value<T>], index: &str, what: &str) -> Result<&'a T, Flaw> {
+    fn element<'a, T>(
+        &self,
+        all: &'a [ObjValue<T>],
+        index: &str,
+        what: &str,
+    ) -> Result<&'a T, Flaw> {
         let number = self.number(index, what)?;
         let position = if number < 0 { all.len() as i64 + number } else { number - 1 };
         let value = usize::try_from(position).ok().and_then(|position| all.get(position));
