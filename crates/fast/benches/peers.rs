@@ -84,7 +84,7 @@ fn mesh(path: &str) {
     let start = processor_seconds();
     let mut scene = Scene::new(Vec::new(), triangles, Vec::new());
     accelerate(&mut scene);
-    let build = (processor_seconds() - start);
+    let build = processor_seconds() - start;
     let start = processor_seconds();
     let mut state = IntersectionState::new();
     let found = rays.iter().filter(|ray| scene.trace(ray, Some(&mut state))).count();
