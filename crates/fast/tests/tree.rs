@@ -1,5 +1,6 @@
 //! The tree of large scenes never changes a hit.
 
+use fast::lanes::width::Width;
 use fast::tree::Tree;
 use glam::Vec3;
 use photon_mapping::scene::Acceleration;
@@ -19,6 +20,12 @@ fn brute_force(
         (t < ray.max_t && of(triangle, t)).then_some((index, t))
     });
     hits.reduce(|best, hit| if hit.1 < best.1 { hit } else { best })
+}
+
+/// A tree for every width of the processor's vectors.
+fn trees(triangles: &[Triangle]) -> Vec<Tree> {
+    let tree = |width| Tree::with_width(triangles, width);
+    Width::available().into_iter().map(tree).collect()
 }
 
 fn triangle(vertices: [Vec3; 3]) -> Triangle {
@@ -53,17 +60,19 @@ fn the_tree_forgets_no_box_of_many() {
         triangle([a, b, c].map(|corner| corner + 0.01 * f32::from(number) * Vec3::Z))
     };
     let triangles: Vec<_> = (0..u16::MAX).map(layer).collect();
-    let tree = Tree::new(&triangles);
+    let trees = trees(&triangles);
     for height in [-1.0, 0.0, 1.237, 47.11, 326.97, 655.345, 700.0] {
         for direction in [Vec3::Z, Vec3::NEG_Z] {
             let ray = Ray::new(Vec3::new(0.1, 0.05, height), direction);
             let all = |_: &Triangle, _| true;
-            let found = tree.closest_of(&ray, &triangles, &all);
-            assert_eq!(found, brute_force(&triangles, &ray, all), "{ray:?}");
             // As long as nothing is met, nothing is left out.
             let last = |triangle: &Triangle, _| triangle.vertices[0].z > 655.335;
-            let found = tree.closest_of(&ray, &triangles, &last);
-            assert_eq!(found, brute_force(&triangles, &ray, last), "{ray:?}");
+            for tree in &trees {
+                let found = tree.closest_of(&ray, &triangles, &all);
+                assert_eq!(found, brute_force(&triangles, &ray, all), "{ray:?}");
+                let found = tree.closest_of(&ray, &triangles, &last);
+                assert_eq!(found, brute_force(&triangles, &ray, last), "{ray:?}");
+            }
         }
     }
 }
@@ -78,7 +87,7 @@ proptest! {
     ) {
         let with_normal = |(corners, normal)| Triangle { normal, ..triangle(corners) };
         let triangles: Vec<_> = corners.into_iter().map(with_normal).collect();
-        let tree = Tree::new(&triangles);
+        let trees = trees(&triangles);
         for (origin, target) in rays {
             for direction in [(target - origin).normalize_or(Vec3::Y), Vec3::Z] {
                 for start_error in [0.0, 0.01] {
@@ -86,7 +95,9 @@ proptest! {
                     ray.start_error = start_error;
                     let hit = brute_force(&triangles, &ray, |_, _| true);
                     let expected = hit.map(|(at, t)| (at, t, triangles[at].faces(direction)));
-                    prop_assert_eq!(tree.closest(&ray, &triangles), expected);
+                    for tree in &trees {
+                        prop_assert_eq!(tree.closest(&ray, &triangles), expected);
+                    }
                 }
             }
         }
@@ -106,7 +117,7 @@ proptest! {
                 triangle([near(a), near(b), near(c)])
             })
             .collect();
-        let tree = Tree::new(&triangles);
+        let trees = trees(&triangles);
         for (place, (origin, target, max_t)) in rays.iter().enumerate() {
             let origin = *origin + Vec3::splat(shift);
             // Every other ray aims at a corner or at the middle of an edge.
@@ -130,14 +141,18 @@ proptest! {
             let front = |triangle: &Triangle, _| triangle.faces(direction);
             for start_error in [0.0, 0.01] {
                 (ray.max_t, ray.start_error) = (f32::INFINITY, start_error);
-                let found = tree.closest_of(&ray, &triangles, &all);
-                prop_assert_eq!(found, brute_force(&triangles, &ray, all));
+                let whole = brute_force(&triangles, &ray, all);
+                let endless = ray;
                 ray.max_t = *max_t;
-                let found = tree.closest_of(&ray, &triangles, &all);
-                prop_assert_eq!(found, brute_force(&triangles, &ray, all));
-                prop_assert_eq!(tree.any(&ray, &triangles), found.is_some());
-                let found = tree.closest_of(&ray, &triangles, &front);
-                prop_assert_eq!(found, brute_force(&triangles, &ray, front));
+                let closest = brute_force(&triangles, &ray, all);
+                let closest_front = brute_force(&triangles, &ray, front);
+                for tree in &trees {
+                    prop_assert_eq!(tree.closest_of(&endless, &triangles, &all), whole);
+                    prop_assert_eq!(tree.closest_of(&ray, &triangles, &all), closest);
+                    prop_assert_eq!(tree.any(&ray, &triangles), closest.is_some());
+                    let found = tree.closest_of(&ray, &triangles, &front);
+                    prop_assert_eq!(found, closest_front);
+                }
             }
         }
     }

@@ -11,7 +11,7 @@ import mitsuba as mi
 
 mi.set_variant("llvm_ad_rgb")
 
-MODEL = os.path.join(os.path.dirname(__file__), "../../src/assignment8/cornell_box.obj")
+MODEL = os.path.join(os.path.dirname(__file__), "../../../model/assets/cornell_box.obj")
 # Model axes, y up.
 LIGHT = (0.01909, 1.77640, -0.0101)
 OFFSET = 1e-5

@@ -1,17 +1,23 @@
 #!/bin/sh
 # Times Mitsuba's photon loop, Embree's closest hit and ours in turn, and prints the ratios.
-# Needs Python 3.9 or newer and, the first time, PyPI. Arguments go to compare.py, see --help.
+# Needs Python 3.9 or newer on Linux and, the first time, PyPI. Arguments go to compare.py, see
+# --help. DRJIT_LIBLLVM_PATH names another LLVM for Mitsuba; it must be 19 or newer.
 set -eu
 cd "$(dirname "$0")/../../../.."
+peers=crates/fast/benches/peers
 environment=${PEERS_ENVIRONMENT:-target/peers}
-if [ ! -x "$environment/bin/python" ]; then
+if ! cmp -s "$peers/requirements.txt" "$environment/requirements.txt"; then
     python3 -m venv "$environment"
+    "$environment/bin/pip" install --quiet -r "$peers/requirements.txt"
+    cp "$peers/requirements.txt" "$environment/requirements.txt"
 fi
-"$environment/bin/python" -c 'import mitsuba, embreex, numpy' 2>/dev/null ||
-    "$environment/bin/pip" install --quiet -r crates/fast/benches/peers/requirements.txt
+if [ -z "${DRJIT_LIBLLVM_PATH:-}" ]; then
+    DRJIT_LIBLLVM_PATH=$(find "$(realpath "$environment")/lib" -name 'libLLVM.*' | sort | tail -1)
+    export DRJIT_LIBLLVM_PATH
+fi
 ours=$(cargo bench -p photon-mapping-fast --bench peers --no-run --message-format=json |
     "$environment/bin/python" -c '
 import json, sys
 messages = [json.loads(line) for line in sys.stdin]
 print([m["executable"] for m in messages if m.get("target", {}).get("name") == "peers"][-1])')
-exec "$environment/bin/python" crates/fast/benches/peers/compare.py --ours "$ours" "$@"
+exec "$environment/bin/python" "$peers/compare.py" --ours "$ours" "$@"

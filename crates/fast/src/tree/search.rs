@@ -1,0 +1,286 @@
+//! The way of one ray through the tree.
+
+use glam::Vec3;
+use pulp::{cast, f32x8};
+
+use super::eight::{Eight, WithEight};
+use super::{LEAF, Leaf, NO_CHILD, SLACK, Tree, TreeNode, WIDTH};
+use photon_mapping::scene::ray::Ray;
+use photon_mapping::scene::triangle::{ShearedRay, Triangle, meet};
+
+/// Few rays have so many boxes waiting: 22 at most in a mesh of a million triangles.
+const ORDINARY_STACK: usize = 32;
+
+/// The search for the closest hit of `ray` of those that `of` takes.
+pub struct Search<'a, F> {
+    pub tree: &'a Tree,
+    pub ray: &'a Ray,
+    pub triangles: &'a [Triangle],
+    pub of: F,
+    pub any_will_do: bool,
+}
+
+impl<F: Fn(&Triangle, f32) -> bool> WithEight for Search<'_, F> {
+    type Output = Option<(usize, f32, bool)>;
+
+    #[inline(always)]
+    fn with<E: Eight>(self, eight: E) -> Self::Output {
+        let Self { tree, ray, triangles, of, any_will_do } = self;
+        let mut way = Way::new(eight, ray, tree);
+        let mut waiting = Stack::new();
+        let mut next = Some(0);
+        while let Some(place) = next {
+            next = if place & LEAF == 0 {
+                way.enter(&tree.nodes[place as usize], &mut waiting)
+            } else {
+                way.test(&tree.leaves[(place & !LEAF) as usize], triangles, &of);
+                if any_will_do && way.index != NO_CHILD {
+                    break;
+                }
+                None
+            };
+            while next.is_none()
+                && let Some((place, distance)) = waiting.pop()
+            {
+                next = (distance <= way.limit).then_some(place);
+            }
+        }
+        (way.index != NO_CHILD).then_some((way.index as usize, way.closest, way.is_front))
+    }
+}
+
+/// A ray on its way through the tree.
+struct Way<E> {
+    eight: E,
+    origin: [f32; 3],
+    sheared: ShearedRay,
+    start_error: f32,
+    direction: [f32x8; 3],
+    reciprocal: [f32x8; 3],
+    /// The origin, moved by the slack so that boxes begin earlier.
+    before: [f32x8; 3],
+    /// The origin, moved by the slack so that boxes end later.
+    behind: [f32x8; 3],
+    /// For each axis, which of a node's ends comes first.
+    first: [usize; 3],
+    slack: f32,
+    closest: f32,
+    /// How far away a box may begin that has something to offer.
+    limit: f32,
+    index: u32,
+    is_front: bool,
+}
+
+impl<E: Eight> Way<E> {
+    #[inline(always)]
+    fn new(eight: E, ray: &Ray, tree: &Tree) -> Self {
+        let (origin, direction) = (ray.position(), ray.ray_direction());
+        let reach = (tree.bounds.low - origin).abs().max((tree.bounds.high - origin).abs());
+        let slack = SLACK * reach.max_element() + ray.start_error;
+        let mut way = Self {
+            eight,
+            origin: origin.to_array(),
+            sheared: ShearedRay::new(ray),
+            start_error: ray.start_error,
+            direction: [eight.splat_f32s(0.0); 3],
+            reciprocal: [eight.splat_f32s(0.0); 3],
+            before: [eight.splat_f32s(0.0); 3],
+            behind: [eight.splat_f32s(0.0); 3],
+            first: [0; 3],
+            slack,
+            closest: ray.max_t,
+            limit: ray.max_t + 2.0 * slack,
+            index: NO_CHILD,
+            is_front: false,
+        };
+        // Loops, because the closure of an array's `map` would not be inlined.
+        for axis in 0..3 {
+            let is_backwards = direction[axis].is_sign_negative();
+            let outwards = if is_backwards { -slack } else { slack };
+            way.first[axis] = usize::from(is_backwards);
+            way.direction[axis] = eight.splat_f32s(direction[axis]);
+            way.reciprocal[axis] = eight.splat_f32s(1.0 / direction[axis]);
+            way.before[axis] = eight.splat_f32s(origin[axis] + outwards);
+            way.behind[axis] = eight.splat_f32s(origin[axis] - outwards);
+        }
+        way
+    }
+
+    /// The child of `node` whose box begins nearest of those that the ray enters. The others wait.
+    #[inline(always)]
+    fn enter(&self, node: &TreeNode, waiting: &mut Stack) -> Option<u32> {
+        let eight = self.eight;
+        let mut near = eight.splat_f32s(0.0);
+        let mut far = eight.splat_f32s(f32::INFINITY);
+        for axis in 0..3 {
+            let first = self.first[axis] & 1;
+            let (starts, ends) = (cast(node.ends[first][axis]), cast(node.ends[1 - first][axis]));
+            let along =
+                |ends, origin| eight.mul_f32s(eight.sub_f32s(ends, origin), self.reciprocal[axis]);
+            // Not a number when the ray runs along the box's side: then this axis does not count.
+            near = eight.greater(along(starts, self.before[axis]), near);
+            far = eight.smaller(along(ends, self.behind[axis]), far);
+        }
+        let far = eight.mul_f32s(far, eight.splat_f32s(1.0 + 4.0 * f32::EPSILON));
+        let last = eight.smaller(far, eight.splat_f32s(self.limit));
+        let mut entered = eight.bits(eight.less_than_or_equal_f32s(near, last));
+        if entered == 0 {
+            return None;
+        }
+        let distances: [f32; WIDTH] = cast(near);
+        let slot = entered.trailing_zeros() as usize % WIDTH;
+        entered &= entered - 1;
+        let mut nearest = (node.children[slot], distances[slot]);
+        if entered == 0 {
+            return Some(nearest.0);
+        }
+        let first = waiting.count;
+        while entered != 0 {
+            let slot = entered.trailing_zeros() as usize % WIDTH;
+            entered &= entered - 1;
+            let child = (node.children[slot], distances[slot]);
+            if child.1 < nearest.1 {
+                waiting.push(nearest);
+                nearest = child;
+            } else {
+                waiting.push(child);
+            }
+        }
+        waiting.sort_from(first);
+        Some(nearest.0)
+    }
+
+    /// Tests the triangles of `leaf`.
+    #[inline(always)]
+    fn test(&mut self, leaf: &Leaf, triangles: &[Triangle], of: impl Fn(&Triangle, f32) -> bool) {
+        let eight = self.eight;
+        let mut seen = [[eight.splat_f32s(0.0); 3]; 3];
+        for (seen, corner) in seen.iter_mut().zip(&leaf.corners) {
+            *seen = self.see(corner);
+        }
+        let [a, b, c] = seen;
+        let u = eight.cross(c[0], b[1], c[1], b[0]);
+        let v = eight.cross(a[0], c[1], a[1], c[0]);
+        let w = eight.cross(b[0], a[1], b[1], a[0]);
+        let zero = eight.splat_f32s(0.0);
+        let (mut negative, mut positive, mut in_doubt) = (0, 0, 0);
+        for edge in [u, v, w] {
+            negative |= eight.bits(eight.less_than_f32s(edge, zero));
+            positive |= eight.bits(eight.greater_than_f32s(edge, zero));
+            in_doubt |= eight.bits(eight.equal_f32s(edge, zero));
+        }
+        let determinant = eight.add_f32s(eight.add_f32s(u, v), w);
+        let (ua, vb, wc) =
+            (eight.mul_f32s(u, a[2]), eight.mul_f32s(v, b[2]), eight.mul_f32s(w, c[2]));
+        let distances = eight.div_f32s(eight.add_f32s(eight.add_f32s(ua, vb), wc), determinant);
+        let facing = eight.add_f32s(
+            eight.add_f32s(
+                eight.mul_f32s(self.direction[0], cast(leaf.normals[0])),
+                eight.mul_f32s(self.direction[1], cast(leaf.normals[1])),
+            ),
+            eight.mul_f32s(self.direction[2], cast(leaf.normals[2])),
+        );
+        let is_ahead = eight.greater_than_f32s(distances, eight.splat_f32s(-self.start_error));
+        let is_close = eight.less_than_or_equal_f32s(distances, eight.splat_f32s(self.closest));
+        let within = eight.bits(is_ahead) & eight.bits(is_close);
+        let mut met = (within & !(negative & positive)) | in_doubt;
+        if met == 0 {
+            return;
+        }
+        let distances: [f32; WIDTH] = cast(distances);
+        let cosines: [f32; WIDTH] = cast(facing);
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize % WIDTH;
+            met &= met - 1;
+            let mut t = distances[lane];
+            if in_doubt >> lane & 1 == 1 {
+                let Some(exact) = meet([of_lane(&a, lane), of_lane(&b, lane), of_lane(&c, lane)])
+                else {
+                    continue;
+                };
+                t = exact;
+            }
+            let index = leaf.indices[lane];
+            let triangle = &triangles[index as usize];
+            let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
+            if (t < self.closest || is_tie)
+                && self.sheared.reaches(cosines[lane], t)
+                && of(triangle, t)
+            {
+                (self.closest, self.index, self.is_front) = (t, index, cosines[lane] <= 0.0);
+                self.limit = t + 2.0 * self.slack;
+            }
+        }
+    }
+
+    /// Eight corners as the ray sees them, with the roundings of [`Triangle::intersect`].
+    #[inline(always)]
+    fn see(&self, corner: &[[f32; WIDTH]; 3]) -> [f32x8; 3] {
+        let eight = self.eight;
+        let [x, y, z] = self.sheared.order();
+        let shear = self.sheared.shear();
+        let depth = eight.sub_f32s(cast(corner[z]), eight.splat_f32s(self.origin[z]));
+        let beside_x = eight.sub_f32s(cast(corner[x]), eight.splat_f32s(self.origin[x]));
+        let beside_y = eight.sub_f32s(cast(corner[y]), eight.splat_f32s(self.origin[y]));
+        [
+            eight.sub_f32s(beside_x, eight.mul_f32s(eight.splat_f32s(shear.x), depth)),
+            eight.sub_f32s(beside_y, eight.mul_f32s(eight.splat_f32s(shear.y), depth)),
+            eight.mul_f32s(eight.splat_f32s(shear.z), depth),
+        ]
+    }
+}
+
+/// The corner in `lane`.
+#[inline(always)]
+fn of_lane(corner: &[f32x8; 3], lane: usize) -> Vec3 {
+    let [x, y, z] = corner;
+    let [x, y, z]: [[f32; WIDTH]; 3] = [cast(*x), cast(*y), cast(*z)];
+    Vec3::new(x[lane], y[lane], z[lane])
+}
+
+/// Children that are still to be visited, and how far away their boxes begin.
+struct Stack {
+    /// On the processor's stack, because to ask for memory takes as long as to enter some nodes.
+    first: [(u32, f32); ORDINARY_STACK],
+    count: usize,
+    more: Vec<(u32, f32)>,
+}
+
+impl Stack {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { first: [(NO_CHILD, 0.0); ORDINARY_STACK], count: 0, more: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, child: (u32, f32)) {
+        if let Some(place) = self.first.get_mut(self.count) {
+            *place = child;
+            self.count += 1;
+        } else {
+            self.more.push(child);
+        }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<(u32, f32)> {
+        if !self.more.is_empty() {
+            return self.more.pop();
+        }
+        self.count = self.count.checked_sub(1)?;
+        Some(self.first[self.count])
+    }
+
+    /// Puts the nearest of the children from `start` on last. Those beyond the ordinary stack may
+    /// come in any order: it only costs time.
+    #[inline(always)]
+    fn sort_from(&mut self, start: usize) {
+        for end in start + 1..self.count.min(ORDINARY_STACK) {
+            let mut place = end;
+            while place > start && self.first[place - 1].1 < self.first[place].1 {
+                self.first.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+    }
+}
