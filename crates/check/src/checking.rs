@@ -88,6 +88,11 @@ pub fn check(
         report.builds = Builds::EndsAtOnce { what };
         return Ok(report);
     }
+    let missing = workshop.missing_headers();
+    if !missing.is_empty() {
+        let names = missing.join(", ");
+        report.remarks.push(format!("included, not handed in, and not needed: {names}"));
+    }
     report.sections = sections::judge(&observed);
     report.remarks.extend(remarks(&observed));
     add_whole(observed, &mut report);

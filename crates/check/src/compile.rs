@@ -4,44 +4,34 @@ use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use serde::Serialize;
-
+pub use crate::diagnostics::BuildError;
+use crate::diagnostics::{missing_header, missing_in_list, parse_error};
 use crate::error::CheckError;
 use crate::find::{LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, Submission, beside};
+use crate::headers::Headers;
 use crate::kit::{Kit, write};
 use crate::sandbox::{Ending, Limits, Outcome, Program, search_path};
 
-/// The framework's standard first; the other for those whose compiler let them use more.
-const STANDARDS: [&str; 2] = ["-std=gnu++11", "-std=gnu++17"];
-/// So many sources besides the two are compiled at most.
-const MOST_SOURCES: usize = 20;
+/// The framework's standard first; the other for those whose compiler let them use more. This
+/// name of C++20 is the one that older compilers know, too.
+const STANDARDS: [&str; 2] = ["-std=gnu++11", "-std=gnu++2a"];
 /// The compiler's memory, in MiB.
 const MEMORY: u64 = 3 << 10;
-
-/// Why a submission does not build.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct BuildError {
-    /// The student's file, by the name they know.
-    pub file: Option<String>,
-    /// The line in it.
-    pub line: Option<u32>,
-    /// What the compiler says.
-    pub message: String,
-    /// A name that is declared in no file that was handed in.
-    pub missing: Option<String>,
-}
 
 /// A submission in the folder in which it is compiled and run.
 #[derive(Debug)]
 pub struct Workshop<'kit> {
-    kit: &'kit Kit,
+    pub(crate) kit: &'kit Kit,
     folder: tempfile::TempDir,
     /// Folders of copies, and where the originals lie.
-    originals: Vec<(PathBuf, PathBuf)>,
-    checkout: Option<PathBuf>,
-    time: Duration,
+    pub(crate) originals: Vec<(PathBuf, PathBuf)>,
+    /// The folder of all that was handed in.
+    pub(crate) root: Option<PathBuf>,
+    headers: Mutex<Headers>,
+    pub(crate) time: Duration,
 }
 
 impl<'kit> Workshop<'kit> {
@@ -78,12 +68,23 @@ impl<'kit> Workshop<'kit> {
             let original = file.parent().unwrap_or(Path::new("")).to_owned();
             originals.push((place, original));
         }
-        Ok(Self { kit, folder, originals, checkout: submission.checkout.clone(), time })
+        let headers = Mutex::new(Headers::new(kit, folder.path(), &submission.headers));
+        let root = submission.root.as_ref().and_then(|root| fs::canonicalize(root).ok());
+        Ok(Self { kit, folder, originals, root, headers, time })
     }
 
     /// The folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// The headers that are included, were not handed in, and are no part of the stand-in.
+    pub fn missing_headers(&self) -> Vec<String> {
+        self.headers().missing()
+    }
+
+    fn headers(&self) -> MutexGuard<'_, Headers> {
+        self.headers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Compiles the harness and the submission; the path of the program.
@@ -111,28 +112,21 @@ impl<'kit> Workshop<'kit> {
         } else {
             sources.iter().map(|source| self.compile_one(source, &harness)).collect()
         };
-        let mut objects = Vec::new();
         // The student's own files speak first: the harness fails where their headers do.
         let mut results = results.into_iter();
         let of_harness = results.next().expect("the harness is first");
-        let mut needed = BTreeSet::new();
-        for result in results {
+        let mut objects = Vec::new();
+        let mut others = BTreeSet::new();
+        for result in results.chain([of_harness]) {
             match result? {
                 Ok(object) => {
-                    needed.extend(object.sources);
+                    others.extend(object.sources);
                     objects.push(object.path);
                 }
                 Err(error) => return Ok(Err(error)),
             }
         }
-        match of_harness? {
-            Ok(object) => objects.insert(0, object.path),
-            Err(error) => return Ok(Err(error)),
-        }
-        if let Err(error) = self.compile_others(needed, &mut objects)? {
-            return Ok(Err(error));
-        }
-        self.link(&objects)
+        self.link_with_others(objects, others)
     }
 
     fn compile_one(
@@ -141,7 +135,7 @@ impl<'kit> Workshop<'kit> {
         harness: &Path,
     ) -> Result<Result<Object, BuildError>, CheckError> {
         let is_harness = source == harness;
-        if !is_harness || self.has_own_headers() || self.checkout.is_some() {
+        if !is_harness || self.has_own_headers() {
             return self.compile(source, is_harness);
         }
         let compile = || Ok(self.compile(source, true)?.map(|object| object.path));
@@ -149,113 +143,117 @@ impl<'kit> Workshop<'kit> {
         Ok(kept.map(|path| Object { path, sources: BTreeSet::new() }))
     }
 
-    /// Compiles the sources beside the headers that were used, as far as they are not compiled yet.
-    fn compile_others(
-        &self,
-        mut needed: BTreeSet<PathBuf>,
-        objects: &mut Vec<PathBuf>,
-    ) -> Result<Result<(), BuildError>, CheckError> {
-        let mut done = BTreeSet::new();
-        while let Some(source) = needed.pop_first() {
-            if done.len() >= MOST_SOURCES || !done.insert(source.clone()) {
-                continue;
-            }
-            match self.compile(&source, false)? {
-                Ok(object) => {
-                    objects.push(object.path);
-                    needed.extend(object.sources);
-                }
-                Err(error) => return Ok(Err(error)),
-            }
-        }
-        Ok(Ok(()))
-    }
-
-    fn compile(
+    pub(crate) fn compile(
         &self,
         source: &Path,
         is_harness: bool,
     ) -> Result<Result<Object, BuildError>, CheckError> {
-        let mut first_error = None;
+        let mut error = BuildError::plain(String::new());
         for standard in STANDARDS {
-            let number = source
-                .display()
-                .to_string()
-                .bytes()
-                .fold(7_u64, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)));
-            let object = self.path().join(format!("{number:x}.o"));
-            let list = object.with_extension("d");
-            let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into()];
-            // -O1 takes the least time to compile and run together.
-            for option in [standard, "-O1", "-w", "-fdiagnostics-color=never"] {
-                command.push(option.into());
+            for with_found in [true, false] {
+                if !with_found && !self.headers().any_found() {
+                    continue;
+                }
+                let attempt = Attempt { source, is_harness, standard, with_found };
+                match self.try_once(&attempt)? {
+                    Ok(object) => return Ok(Ok(object)),
+                    Err(Failure { error, is_final: true }) => return Ok(Err(error)),
+                    // The later standard knows more names, so its complaint is the true one.
+                    Err(failure) if with_found => error = failure.error,
+                    Err(_) => {}
+                }
             }
-            for define in ["-DGLM_FORCE_CTOR_INIT", "-DGLM_ENABLE_EXPERIMENTAL"] {
-                command.push(define.into());
+        }
+        Ok(Err(error))
+    }
+
+    fn try_once(&self, attempt: &Attempt<'_>) -> Result<Result<Object, Failure>, CheckError> {
+        let source = attempt.source.display().to_string();
+        let number = source
+            .bytes()
+            .fold(7_u64, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)));
+        let object = self.path().join(format!("{number:x}.o"));
+        let list = object.with_extension("d");
+        loop {
+            let mut command = self.command(attempt);
+            for argument in ["-MD".as_ref(), "-MF".as_ref(), list.as_os_str(), "-o".as_ref()] {
+                command.push(argument.to_owned());
             }
-            if is_harness {
-                command.push("-fno-access-control".into());
-            }
-            let mut folder = |option: &str, path: &Path| {
-                command.push(option.into());
-                command.push(path.into());
-            };
-            folder("-I", &self.path().join("submission"));
-            folder("-I", &self.kit.path().join("standin"));
-            if let Some(glm) = &self.kit.glm {
-                folder("-I", glm);
-            }
-            if let Some(checkout) = &self.checkout {
-                folder("-idirafter", checkout);
-            }
-            folder("-MD", Path::new("-MF"));
-            command.push(list.clone().into());
-            command.push("-o".into());
-            command.push(object.clone().into());
-            command.push("-c".into());
-            command.push(source.into());
+            command.extend([object.as_os_str().to_owned(), "-c".into(), attempt.source.into()]);
             let outcome = self.run(command)?;
             if outcome.ending == Ending::Code(0) {
                 let sources = self.sources_of(&fs::read_to_string(&list).unwrap_or_default());
                 return Ok(Ok(Object { path: object, sources }));
             }
-            if outcome.printed.contains("glm/glm.hpp") && is_missing_header(&outcome.printed) {
-                return Err(CheckError::NoGlm);
-            }
-            let is_final = matches!(outcome.ending, Ending::TimeOut | Ending::Signal(_));
-            let error = self.explain(&outcome, is_harness)?;
-            let error = first_error.get_or_insert(error);
-            if is_final {
-                return Ok(Err(error.clone()));
+            let lacks_header = outcome
+                .printed
+                .lines()
+                .filter_map(parse_error)
+                .find_map(|error| missing_header(&error.message).map(str::to_owned));
+            match lacks_header {
+                Some(name) if name == "glm/glm.hpp" => return Err(CheckError::NoGlm),
+                Some(_) if self.supply_headers(attempt)? => {}
+                _ => {
+                    let is_final = matches!(outcome.ending, Ending::TimeOut | Ending::Signal(_));
+                    let error = self.explain(&outcome, attempt.is_harness)?;
+                    return Ok(Err(Failure { error, is_final }));
+                }
             }
         }
-        Ok(Err(first_error.expect("every standard was tried")))
     }
 
-    fn link(&self, objects: &[PathBuf]) -> Result<Result<PathBuf, BuildError>, CheckError> {
-        let program = self.path().join("harness");
-        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into(), "-o".into()];
-        command.push(program.clone().into());
-        command.extend(objects.iter().map(|object| object.clone().into()));
-        let outcome = self.run(command)?;
-        if outcome.ending == Ending::Code(0) {
-            return Ok(Ok(program));
+    /// The compiler with all options but those for its output.
+    fn command(&self, attempt: &Attempt<'_>) -> Vec<OsString> {
+        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into()];
+        // -O1 takes the least time to compile and run together.
+        for option in [attempt.standard, "-O1", "-w", "-fdiagnostics-color=never"] {
+            command.push(option.into());
         }
-        let missing = outcome.printed.lines().find_map(|line| {
-            let after = line.split_once("undefined reference to ")?.1;
-            Some(after.trim().trim_matches(['`', '\'', '"', '.']).to_owned())
-        });
-        let message = match &missing {
-            Some(name) => format!("{name} is defined in no file"),
-            None => first_line(&outcome.printed, "the linker failed"),
+        for define in ["-DGLM_FORCE_CTOR_INIT", "-DGLM_ENABLE_EXPERIMENTAL"] {
+            command.push(define.into());
+        }
+        if attempt.is_harness {
+            command.push("-fno-access-control".into());
+        }
+        let mut folder = |option: &str, path: &Path| {
+            command.push(option.into());
+            command.push(path.into());
         };
-        Ok(Err(BuildError { file: None, line: None, message, missing }))
+        folder("-I", &self.path().join("submission"));
+        folder("-I", &self.kit.path().join("standin"));
+        if let Some(glm) = &self.kit.glm {
+            folder("-I", glm);
+        }
+        folder("-idirafter", &self.headers().folder(attempt.with_found));
+        command
     }
 
-    fn run(&self, command: Vec<OsString>) -> Result<Outcome, CheckError> {
+    /// Writes the headers that `attempt` lacks; whether there is any new one.
+    fn supply_headers(&self, attempt: &Attempt<'_>) -> Result<bool, CheckError> {
+        let mut command = self.command(attempt);
+        command.extend(["-M", "-MG"].map(OsString::from));
+        command.push(attempt.source.into());
+        let list = self.run_for_output(command)?;
+        self.headers().supply(missing_in_list(&list))
+    }
+
+    pub(crate) fn run(&self, command: Vec<OsString>) -> Result<Outcome, CheckError> {
+        let limits = Limits { time: self.time, memory: MEMORY, file_blocks: 1 << 19 };
+        self.program(command).run(limits, |_| Some(self.time))
+    }
+
+    /// What `command` writes to its standard output.
+    fn run_for_output(&self, mut command: Vec<OsString>) -> Result<String, CheckError> {
+        let list = self.path().join("missing.d");
+        command.extend(["-MF".into(), list.clone().into()]);
+        self.run(command)?;
+        Ok(fs::read_to_string(&list).unwrap_or_default())
+    }
+
+    fn program(&self, command: Vec<OsString>) -> Program {
         let path = search_path(&self.kit.compiler);
         let temporary: OsString = self.path().into();
-        let program = Program {
+        Program {
             command,
             folder: self.path().to_owned(),
             environment: vec![
@@ -264,172 +262,26 @@ impl<'kit> Workshop<'kit> {
                 ("TMPDIR".to_owned(), temporary),
             ],
             writes: true,
-        };
-        let limits = Limits { time: self.time, memory: MEMORY, file_blocks: 1 << 19 };
-        program.run(limits, |_| Some(self.time))
-    }
-
-    /// The first error among what the compiler printed, with the student's own name of the file.
-    fn explain(&self, outcome: &Outcome, is_harness: bool) -> Result<BuildError, CheckError> {
-        let plain = |message: String| BuildError { file: None, line: None, message, missing: None };
-        if outcome.ending == Ending::TimeOut {
-            let seconds = self.time.as_secs();
-            return Ok(plain(format!("the compiler did not end within {seconds} s")));
         }
-        let Some(error) = outcome.printed.lines().find_map(parse_error) else {
-            return Ok(plain(first_line(&outcome.printed, "the compiler failed")));
-        };
-        let shown = self.original_name(Path::new(&error.file));
-        if shown.is_none() && is_harness {
-            // Only a header of the student's can be the reason, unless the kit itself is broken.
-            let has_headers = self.has_own_headers();
-            if !has_headers {
-                let compiler = self.kit.compiler.display().to_string();
-                return Err(CheckError::Kit { compiler, message: error.message });
-            }
-            let message = format!("the harness cannot use your headers: {}", error.message);
-            return Ok(BuildError { missing: missing_name(&error.message), ..plain(message) });
-        }
-        Ok(BuildError {
-            file: shown.or(Some(error.file)),
-            line: Some(error.line),
-            missing: missing_name(&error.message),
-            message: error.message,
-        })
-    }
-
-    fn has_own_headers(&self) -> bool {
-        self.originals.iter().any(|(copies, _)| {
-            fs::read_dir(copies).is_ok_and(|mut entries| {
-                entries.any(|entry| {
-                    entry.is_ok_and(|entry| entry.path().extension().is_some_and(|e| e != "cpp"))
-                })
-            })
-        })
-    }
-
-    /// The student's name of the file that the compiler knows as `path`.
-    fn original_name(&self, path: &Path) -> Option<String> {
-        let of_copy = self.originals.iter().find_map(|(copies, original)| {
-            let rest = path.strip_prefix(copies).ok()?;
-            Some((original.clone(), rest.to_owned()))
-        });
-        let full = match of_copy {
-            Some((original, rest)) => original.join(rest),
-            None => path.to_owned(),
-        };
-        let is_students = path.starts_with(self.path())
-            || self.checkout.as_ref().is_some_and(|checkout| path.starts_with(checkout));
-        if !is_students {
-            return None;
-        }
-        let root = self.checkout.as_deref();
-        let canonical = fs::canonicalize(&full).unwrap_or_else(|_| full.clone());
-        let shown = root
-            .and_then(|root| canonical.strip_prefix(root).ok())
-            .map(Path::to_owned)
-            .or_else(|| full.file_name().map(PathBuf::from));
-        shown.map(|path| path.display().to_string())
-    }
-
-    /// The sources beside the student's headers in a list of dependencies, as compilers write it
-    /// for `make`.
-    fn sources_of(&self, list: &str) -> BTreeSet<PathBuf> {
-        let words = list.split_whitespace().filter(|word| *word != "\\");
-        let headers = words.map(Path::new).filter(|path| {
-            path.starts_with(self.path())
-                || self.checkout.as_ref().is_some_and(|checkout| path.starts_with(checkout))
-        });
-        let sources = headers.flat_map(|header| {
-            ["cpp", "cc", "cxx"].map(|extension| header.with_extension(extension))
-        });
-        sources
-            .filter(|source| {
-                let name = source.file_name().unwrap_or_default();
-                name != LIGHT && name != RENDERER && source.is_file()
-            })
-            .collect()
     }
 }
 
-struct Object {
-    path: PathBuf,
-    sources: BTreeSet<PathBuf>,
+/// One way to compile a file.
+struct Attempt<'a> {
+    source: &'a Path,
+    is_harness: bool,
+    standard: &'static str,
+    with_found: bool,
 }
 
-struct CompilerError {
-    file: String,
-    line: u32,
-    message: String,
+pub(crate) struct Object {
+    pub(crate) path: PathBuf,
+    /// The sources beside the headers that were read.
+    pub(crate) sources: BTreeSet<PathBuf>,
 }
 
-/// `file:line:column: error: message`, as g++ and clang++ write it.
-fn parse_error(line: &str) -> Option<CompilerError> {
-    let (place, message) = line.split_once(" error: ")?;
-    let place = place.strip_suffix(": fatal").or(place.strip_suffix(':')).unwrap_or(place);
-    let mut parts = place.rsplitn(3, ':');
-    let _column = parts.next()?;
-    let line = parts.next()?.parse().ok()?;
-    let file = parts.next()?.to_owned();
-    Some(CompilerError { file, line, message: message.trim().to_owned() })
-}
-
-/// The name that the compiler does not know, if that is its complaint.
-fn missing_name(message: &str) -> Option<String> {
-    let complaints = [
-        "was not declared",
-        "has not been declared",
-        "does not name a type",
-        "undeclared identifier",
-        "has no member named",
-        "no member named",
-        "No such file",
-        "file not found",
-        "unknown type name",
-        "is not a member of",
-    ];
-    if !complaints.iter().any(|complaint| message.contains(complaint)) {
-        return None;
-    }
-    if let Some((name, _)) = message.split_once(": No such file") {
-        return Some(name.trim().to_owned());
-    }
-    let after = match message.split_once("has no member named") {
-        Some((_, after)) => after,
-        None => message,
-    };
-    after.split('\'').nth(1).map(str::to_owned)
-}
-
-fn is_missing_header(printed: &str) -> bool {
-    printed.contains("No such file") || printed.contains("file not found")
-}
-
-fn first_line(printed: &str, otherwise: &str) -> String {
-    let line = printed.lines().map(str::trim).find(|line| !line.is_empty());
-    line.unwrap_or(otherwise).chars().take(300).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn errors_of_both_compilers_are_read() {
-        let of_gcc =
-            "/tmp/a/PointLight.cpp:12:9: error: 'RandFloat01' was not declared in this scope";
-        let error = parse_error(of_gcc).expect("an error");
-        assert_eq!((error.file.as_str(), error.line), ("/tmp/a/PointLight.cpp", 12));
-        assert_eq!(missing_name(&error.message).as_deref(), Some("RandFloat01"));
-        let of_clang = "a.cpp:3:10: fatal error: 'common/utils.h' file not found";
-        let error = parse_error(of_clang).expect("an error");
-        assert_eq!((error.file.as_str(), error.line), ("a.cpp", 3));
-        assert_eq!(missing_name(&error.message).as_deref(), Some("common/utils.h"));
-        let fatal = "a.cpp:3:10: fatal error: common/utils.h: No such file or directory";
-        let error = parse_error(fatal).expect("an error");
-        assert_eq!(missing_name(&error.message).as_deref(), Some("common/utils.h"));
-        let member = "'struct Photon' has no member named 'normal'";
-        assert_eq!(missing_name(member).as_deref(), Some("normal"));
-        assert!(parse_error("a.cpp:3:10: warning: an error: none").is_none());
-    }
+struct Failure {
+    error: BuildError,
+    /// Whether no other attempt can be any better.
+    is_final: bool,
 }

@@ -21,6 +21,10 @@ const DEEPEST: usize = 12;
 const MOST_FILES: usize = 20_000;
 /// A larger file is not taken for source code.
 const LARGEST: u64 = 1 << 20;
+/// The extensions of headers.
+const HEADERS: [&str; 6] = ["h", "hpp", "hh", "hxx", "inl", "ipp"];
+/// The extensions of sources.
+pub(crate) const SOURCES: [&str; 3] = ["cpp", "cc", "cxx"];
 /// So many headers and sources beside the two files are taken along.
 const MOST_BESIDE: usize = 200;
 
@@ -33,8 +37,10 @@ pub struct Submission {
     pub light: Option<PathBuf>,
     /// The file with `TracePhoton`, if there is one.
     pub renderer: Option<PathBuf>,
-    /// The folder of a whole checkout of the framework, in which `common/` lies.
-    pub checkout: Option<PathBuf>,
+    /// The folder in which all of it lies.
+    pub root: Option<PathBuf>,
+    /// The headers in that folder, in the order in which they were found.
+    pub headers: Vec<PathBuf>,
     /// What is worth saying about the search.
     pub notes: Vec<String>,
 }
@@ -55,21 +61,21 @@ impl Submission {
         search.look_into(folder, 0);
         submission.light = search.choose(LIGHT, LIGHT_FOLDER, &mut submission.notes);
         submission.renderer = search.choose(RENDERER, RENDERER_FOLDER, &mut submission.notes);
-        submission.checkout = submission.renderer.as_deref().and_then(checkout_of);
+        submission.root = Some(folder.to_owned());
+        submission.headers = search.headers;
         if search.files >= MOST_FILES {
             submission.notes.push(format!("only the first {MOST_FILES} files were searched"));
         }
         Ok(submission)
     }
 
-    /// The submission with these two files.
+    /// The submission with these two files, and nothing else.
     pub fn of_files(light: &Path, renderer: &Path) -> Self {
         Self {
             name: name_of(renderer.parent().unwrap_or(renderer)),
             light: Some(light.to_owned()),
             renderer: Some(renderer.to_owned()),
-            checkout: checkout_of(renderer),
-            notes: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -119,17 +125,15 @@ fn is_hidden(path: &Path) -> bool {
     name.starts_with('.') || name == "__MACOSX" || name == "CMakeFiles"
 }
 
-/// The folder in which the framework's `common` lies, if `renderer` lies where the framework has
-/// it.
-fn checkout_of(renderer: &Path) -> Option<PathBuf> {
-    let folder = fs::canonicalize(renderer.parent()?).ok()?;
-    let root = folder.ancestors().nth(Path::new(RENDERER_FOLDER).components().count())?;
-    folder.ends_with(RENDERER_FOLDER).then(|| root.to_owned())
+fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    extensions.contains(&&*extension)
 }
 
 #[derive(Default)]
 struct Search {
     found: BTreeMap<String, Vec<PathBuf>>,
+    headers: Vec<PathBuf>,
     files: usize,
 }
 
@@ -151,9 +155,14 @@ impl Search {
                 continue;
             }
             self.files += 1;
+            if !about.is_file() || about.len() > LARGEST {
+                continue;
+            }
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if about.is_file() && (name == LIGHT || name == RENDERER) && about.len() <= LARGEST {
+            if name == LIGHT || name == RENDERER {
                 self.found.entry(name.into_owned()).or_default().push(path);
+            } else if has_extension(&path, &HEADERS) {
+                self.headers.push(path);
             }
         }
     }
@@ -185,8 +194,7 @@ pub(crate) fn beside(file: &Path) -> Vec<PathBuf> {
         .flatten()
         .map(|entry| entry.path())
         .filter(|path| {
-            let extension = path.extension().unwrap_or_default().to_string_lossy();
-            let is_source = ["h", "hpp", "hh", "inl", "cpp", "cc", "cxx"].contains(&&*extension);
+            let is_source = has_extension(path, &HEADERS) || has_extension(path, &SOURCES);
             let is_small = fs::symlink_metadata(path)
                 .is_ok_and(|about| about.is_file() && about.len() <= LARGEST);
             is_source && is_small && !is_hidden(path)

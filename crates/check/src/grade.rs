@@ -54,10 +54,10 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
     let is_grave = |finding: &Finding| finding.is_fault() && finding.weight == Weight::Grave;
     let is_plausible = !of_list.is_some_and(|grade| grade.findings.iter().any(is_grave))
         && faults().all(|fault| fault.name != Some("direct-stored"));
-    let is_right = |verdict: &&sections::Verdict| {
-        matches!(verdict.status, Status::Right | Status::RightUnderAnotherReading)
+    let right = || {
+        let right = report.sections.iter().filter(|verdict| verdict.is_right());
+        right.map(|verdict| verdict.section.title())
     };
-    let right = || report.sections.iter().filter(is_right).map(|verdict| verdict.section.title());
     // With all sections right, the whole run decides.
     let is_partly_right = right().count() < report.sections.len();
     let of_sections = is_partly_right.then(|| settings.policy.of_sections(right())).flatten();
@@ -150,7 +150,7 @@ fn whole(report: &Report) -> Option<Finding> {
         check: WHOLE,
         section: None,
         expected: "the reference's photons, or as many of them everywhere".to_owned(),
-        found: report.whole.sentence(report.is_right()),
+        found: report.whole.sentence(&report.sections),
         p_value: None,
         passed,
         weight,

@@ -9,11 +9,14 @@
 
 mod checking;
 pub mod compile;
+mod diagnostics;
 pub mod error;
 pub mod events;
 pub mod find;
 pub mod grade;
+mod headers;
 pub mod kit;
+mod link;
 pub mod plan;
 pub mod report;
 pub mod run;

@@ -15,9 +15,13 @@ pub const LIGHT: Vec3 = Vec3::new(0.3, -0.2, 1.5);
 /// A direction that the emission may find at its second try, before it is normalised.
 pub const SECOND_TRY: [f32; 3] = [0.25, -0.5, 0.125];
 /// The diffuse responses that tell one rule for P_r from another: every channel is the largest
-/// once.
-pub const COLOURS: [Vec3; 3] =
-    [Vec3::new(0.2, 0.5, 0.8), Vec3::new(0.8, 0.2, 0.5), Vec3::new(0.5, 0.8, 0.2)];
+/// once, and one response is so dark that its sum is below 1.
+pub const COLOURS: [Vec3; 4] = [
+    Vec3::new(0.2, 0.5, 0.8),
+    Vec3::new(0.8, 0.2, 0.5),
+    Vec3::new(0.5, 0.8, 0.2),
+    Vec3::new(0.1, 0.3, 0.2),
+];
 /// How often a photon may bounce at most in steps where that must not matter.
 const FAR: i32 = 1000;
 /// As many calls show every misreading far beyond chance.
@@ -103,6 +107,7 @@ pub fn steps() -> Vec<Step> {
         Step::Colour(0),
         Step::Colour(1),
         Step::Colour(2),
+        Step::Colour(3),
         Step::GreyCube,
         Step::Threshold(-1024),
         Step::Threshold(0),

@@ -6,7 +6,7 @@ use photon_list::reader::PhotonList;
 use serde::Serialize;
 
 use crate::compile::BuildError;
-use crate::sections::{Status, Verdict};
+use crate::sections::Verdict;
 
 /// Whether the submission builds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,15 +55,19 @@ impl Whole {
         self.drawn.is_some_and(|drawn| drawn < self.photons)
     }
 
-    /// How the run went, in one line. Where all sections are right (`is_right`), a list that is not
-    /// the reference's comes of other random numbers.
-    pub fn sentence(&self, is_right: bool) -> String {
+    /// How the run went, in one line, beside what `sections` say. Where all of them are right, a
+    /// list that is not the reference's comes of other random numbers.
+    pub fn sentence(&self, sections: &[Verdict]) -> String {
         if let Some(death) = &self.death {
             return death.clone();
         }
         let (Some(report), Some(stored)) = (&self.comparison, self.stored) else {
             return "not reached".to_owned();
         };
+        if stored == 0 {
+            let expected = thousands(report.reference_records);
+            return format!("nothing is stored; the reference stores {expected} photons");
+        }
         let records = thousands(stored);
         match report.outcome {
             Outcome::Identical => format!("identical in {records} records"),
@@ -81,41 +85,48 @@ impl Whole {
                 "random numbers of its own (not from rand()), so that only statistics can tell; \
                  {records} photons stored"
             ),
-            Outcome::Different if is_right => format!(
+            Outcome::Different if are_right(sections) => format!(
                 "random numbers drawn in another way than the reference's, so that only statistics \
                  can tell; {records} photons stored"
             ),
-            Outcome::Different => self.divergence(report),
+            Outcome::Different => self.divergence(report, sections),
         }
     }
 
-    fn divergence(&self, report: &compare::report::Report) -> String {
+    fn divergence(&self, report: &compare::report::Report, sections: &[Verdict]) -> String {
         let Some(first) = &report.first_divergence else {
             return "not the reference's photons".to_owned();
         };
-        let section = first.section.map(|section| format!(" [{}]", section.title()));
-        let reason = first.reason.as_deref().unwrap_or("not explained");
-        let photon = first.photon.map(|photon| {
+        // A photon that is not stored looks like one that was absorbed. The sections know better.
+        let section = first.section.filter(|section| {
+            sections.iter().any(|verdict| verdict.section == *section && !verdict.is_right())
+        });
+        let what = match (section, &first.reason) {
+            (Some(section), Some(reason)) => format!(": [{}] {reason}", section.title()),
+            (Some(section), None) => format!(": [{}]", section.title()),
+            (None, _) => String::new(),
+        };
+        let explain = |photon| {
             format!(
                 "; what should have happened: photon-mapping explain {photon} --seed 148 --photons \
                  {}",
                 self.photons
             )
-        });
-        format!(
-            "it parts from the reference:{} {reason}{}",
-            section.unwrap_or_default(),
-            photon.unwrap_or_default()
-        )
+        };
+        let photon = first.photon.map(explain).unwrap_or_default();
+        format!("it parts from the reference{what}{photon}")
     }
 }
 
 impl Report {
     /// Whether all sections are right, under whatever fair reading.
     pub fn is_right(&self) -> bool {
-        let right = [Status::Right, Status::RightUnderAnotherReading];
-        !self.sections.is_empty() && self.sections.iter().all(|v| right.contains(&v.status))
+        are_right(&self.sections)
     }
+}
+
+fn are_right(sections: &[Verdict]) -> bool {
+    !sections.is_empty() && sections.iter().all(Verdict::is_right)
 }
 
 impl Builds {
@@ -128,17 +139,7 @@ impl Builds {
                 "yes, but the program {what} before any function of the assignment is called: look \
                  at static variables and their constructors"
             ),
-            Self::No(error) => {
-                let place = match (&error.file, error.line) {
-                    (Some(file), Some(number)) => format!("{file}:{number}: "),
-                    _ => String::new(),
-                };
-                let missing = error
-                    .missing
-                    .as_ref()
-                    .map(|missing| format!("; `{missing}` is declared in no file you handed in"));
-                format!("no: {place}{}{}", error.message, missing.unwrap_or_default())
-            }
+            Self::No(error) => format!("no: {}", error.sentence()),
         }
     }
 }

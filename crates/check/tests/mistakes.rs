@@ -108,5 +108,5 @@ fn a_checkout_brings_its_own_helpers() {
     assert_eq!(report.builds, Builds::Yes);
     let statuses: Vec<_> = report.sections.iter().map(|verdict| verdict.status).collect();
     assert_eq!(statuses, [Status::Right; 5], "{}", sections_text(&report));
-    assert!(report.whole.is_reference(), "{:?}", report.whole.sentence(true));
+    assert!(report.whole.is_reference(), "{:?}", report.whole.sentence(&report.sections));
 }

@@ -247,7 +247,7 @@ fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
     ];
     let statuses = (0..5).map(|at| report.sections.get(at).map_or("", |v| v.status.in_words()));
     cells.extend(statuses.map(str::to_owned));
-    cells.push(report.whole.sentence(report.is_right()));
+    cells.push(report.whole.sentence(&report.sections));
     let quoted = cells.iter().map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
     quoted.collect::<Vec<_>>().join(",")
 }

@@ -16,6 +16,7 @@ const std::uint64_t most_records = 5000000;
 char buffer[1 << 16];
 std::size_t used = 0;
 Mode mode = Mode::silent;
+std::uint64_t calls_of_step = 0;
 std::uint64_t drawn_before_call = 0;
 std::uint64_t drawn_before_run = 0;
 std::uint64_t photons = 0;
@@ -32,6 +33,13 @@ void put_bytes(const void* bytes, std::size_t size) {
     }
     std::memcpy(buffer + used, bytes, size);
     used += size;
+}
+
+// What happened in the first calls is told at once: it shows where one does not end.
+void flush_early() {
+    if (mode == Mode::events && calls_of_step <= 16) {
+        flush();
+    }
 }
 
 void put(char letter) { put_bytes(&letter, 1); }
@@ -58,7 +66,7 @@ void flush() {
 
 void set_mode(Mode new_mode) {
     mode = new_mode;
-    photons = rays = records = 0;
+    calls_of_step = photons = rays = records = 0;
     drawn_before_run = numbers_drawn();
 }
 
@@ -74,6 +82,7 @@ void end_step() {
 }
 
 void begin_call() {
+    ++calls_of_step;
     put('N');
     drawn_before_call = numbers_drawn();
 }
@@ -105,6 +114,7 @@ void on_trace(const float (&position_and_direction)[6], bool met, bool has_state
         put_number(t);
         put_number(static_cast<std::uint16_t>(object));
         put_number(static_cast<std::uint16_t>(triangle));
+        flush_early();
     }
     if (met && has_state) {
         ++hits_of_photon;
@@ -116,6 +126,7 @@ void on_insert(const float (&values)[9]) {
     if (mode == Mode::events) {
         put('P');
         put_bytes(values, sizeof values);
+        flush_early();
     } else if (mode == Mode::whole) {
         if (++records > most_records) {
             put('L');

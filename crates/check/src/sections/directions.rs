@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+use super::sampling::{LAWS, Law};
 use crate::events::{Call, Trace};
 use crate::plan::{self, Step};
 use crate::run::Observed;
@@ -58,12 +59,16 @@ pub struct Directions {
     pub floor: Vec<Scattered>,
     /// Over every wall.
     pub walls: Vec<(Vec3, Vec<Scattered>)>,
-    /// The frame under which the floor's directions follow the cosine; nothing if none does.
+    /// The frame under which the floor's directions follow a known law; nothing if none does.
     pub frame_of_floor: Option<Frame>,
+    /// The law that they follow in that frame, where it is not the cosine.
+    pub law: Option<&'static Law>,
     /// The square of the sine of the floor's directions to the normal, in tangent space.
     pub sines: Vec<f64>,
     /// Whether the floor's directions are even around the normal.
     pub is_even_around: bool,
+    /// Whether the floor's directions all lie on one side of it.
+    pub is_one_sided: bool,
 }
 
 impl Directions {
@@ -84,26 +89,40 @@ impl Directions {
     fn judge_floor(&mut self) {
         let candidates = frames(Vec3::Z);
         // On the floor, several frames are the same.
-        let tried = candidates.iter().filter(|(frame, _)| {
-            matches!(frame, Frame::Normalised | Frame::Flipped | Frame::OtherOrder)
+        let tried = || {
+            candidates.iter().filter(|(frame, _)| {
+                matches!(frame, Frame::Normalised | Frame::Flipped | Frame::OtherOrder)
+            })
+        };
+        let seen: Vec<_> =
+            tried().map(|(_, matrix)| self.seen_from(&self.floor, *matrix)).collect();
+        // The cosine comes first: what follows it in any frame follows nothing else.
+        let laws = std::iter::once(None).chain(LAWS.iter().map(Some));
+        let found = laws.into_iter().find_map(|law| {
+            let due = law.map(Law::squared_sines);
+            let number = seen.iter().position(|[sines, around, above]| {
+                let follows = match &due {
+                    Some(due) => are_alike(sines, due),
+                    None => is_uniform(sines),
+                };
+                above[0] > 0.999 && follows && is_uniform(around)
+            })?;
+            Some((number, law))
         });
-        let mut chosen = &candidates[0];
-        for candidate in tried {
-            let [sines, around, above] = self.seen_from(Vec3::Z, &self.floor, candidate.1);
-            if above[0] > 0.999 && is_uniform(&sines) && is_uniform(&around) {
-                self.frame_of_floor = Some(candidate.0);
-                chosen = candidate;
-                break;
-            }
+        if let Some((number, law)) = found {
+            self.frame_of_floor = tried().nth(number).map(|(frame, _)| *frame);
+            self.law = law;
         }
-        let [sines, around, _] = self.seen_from(Vec3::Z, &self.floor, chosen.1);
+        let [sines, around, above] =
+            seen.into_iter().nth(found.map_or(0, |(number, _)| number)).expect("frames are tried");
         self.sines = sines;
         self.is_even_around = is_uniform(&around);
+        self.is_one_sided = above[0] > 0.999 || above[0] < 0.001;
     }
 
     /// In the tangent space of `matrix`: the squared sines to the normal, the angles around it as
     /// parts of the circle, and, alone in its list, the part that is above the surface.
-    fn seen_from(&self, _normal: Vec3, rays: &[Scattered], matrix: Mat3) -> [Vec<f64>; 3] {
+    fn seen_from(&self, rays: &[Scattered], matrix: Mat3) -> [Vec<f64>; 3] {
         let inverse = matrix.inverse();
         let local: Vec<_> = rays
             .iter()
@@ -119,19 +138,20 @@ impl Directions {
     }
 
     /// Whether the directions over a wall are those over the floor, seen through `matrix`.
-    pub fn fits(&self, normal: Vec3, rays: &[Scattered], matrix: Mat3) -> bool {
+    pub fn fits(&self, rays: &[Scattered], matrix: Mat3) -> bool {
         if matrix.determinant().abs() < 1e-6 {
             return false;
         }
-        let [sines, around, above] = self.seen_from(normal, rays, matrix);
-        let is_above = above[0] > 0.999 || self.frame_of_floor.is_none();
+        let [sines, around, above] = self.seen_from(rays, matrix);
+        // Samples that all lie on one side lie above, in the right frame.
+        let is_above = above[0] > 0.999 || !self.is_one_sided;
         is_above && are_alike(&sines, &self.sines) && (!self.is_even_around || is_uniform(&around))
     }
 
     /// The frame that explains the directions over a wall; fair ones come first.
     pub fn frame_of(&self, normal: Vec3, rays: &[Scattered]) -> Option<Frame> {
         let candidates = frames(normal);
-        let found = candidates.iter().find(|(_, matrix)| self.fits(normal, rays, *matrix));
+        let found = candidates.iter().find(|(_, matrix)| self.fits(rays, *matrix));
         found.map(|(frame, _)| *frame)
     }
 }

@@ -10,7 +10,7 @@ mod transformation;
 use serde::Serialize;
 use variants::section::Section;
 
-use crate::plan::Step;
+use crate::plan::{COLOURS, Step};
 use crate::run::{Death, Observed};
 
 /// What a section's verdict is.
@@ -71,6 +71,11 @@ impl Verdict {
         Self { section, status: Status::Right, readings, faults, remarks }
     }
 
+    /// Whether it is right, under whatever fair reading.
+    pub fn is_right(&self) -> bool {
+        matches!(self.status, Status::Right | Status::RightUnderAnotherReading)
+    }
+
     fn fault(&mut self, name: Option<&'static str>, found: String, advice: &'static str) {
         self.faults.push(Fault { name, found, advice });
     }
@@ -126,7 +131,9 @@ fn where_of(step: Step) -> String {
         Step::GrowPath => "a closed white cube, a path of length 1".to_owned(),
         Step::Black => "a wall with P_r = 0".to_owned(),
         Step::White => "a wall with P_r = 1".to_owned(),
-        Step::Colour(_) => "a coloured wall with P_r = 0.8".to_owned(),
+        Step::Colour(index) => {
+            format!("a coloured wall with P_r = {}", COLOURS[index].max_element())
+        }
         Step::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
         Step::Threshold(_) => "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned(),
         Step::Floor => "a floor with P_r = 0.5".to_owned(),

@@ -8,14 +8,24 @@ use crate::statistics::{are_alike, is_uniform, mean};
 use variants::section::Section;
 
 /// A law of the angle to the normal: u1 gives the square of its sine.
-struct Law {
+#[derive(Debug)]
+pub struct Law {
     name: &'static str,
     what: &'static str,
     advice: &'static str,
     squared_sine: fn(f64) -> f64,
 }
 
-const LAWS: [Law; 7] = [
+impl Law {
+    /// A sample of the squared sine to the normal, as even as can be.
+    pub fn squared_sines(&self) -> Vec<f64> {
+        let u = (0..20_000).map(|i| (f64::from(i) + 0.5) / 20_000.0);
+        u.map(self.squared_sine).collect()
+    }
+}
+
+/// The laws of known misreadings.
+pub static LAWS: [Law; 7] = [
     Law {
         name: "uniform-hemisphere",
         what: "directions are uniform over the hemisphere, not in proportion to the cosine",
@@ -84,6 +94,9 @@ pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
     } else if directions.frame_of_floor.is_none() {
         judge_angles(directions, &mut verdict);
     } else {
+        if let Some(law) = directions.law {
+            law_fault(law, directions, &mut verdict);
+        }
         judge_pairs(directions, &mut verdict);
     }
     verdict.finish(observed, "TracePhoton", &[Step::Floor])
@@ -123,17 +136,10 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
         );
         return;
     }
-    let even: Vec<_> = (0..20_000).map(|i| (f64::from(i) + 0.5) / 20_000.0).collect();
-    let law = LAWS.iter().find(|law| {
-        let due: Vec<_> = even.iter().map(|u| (law.squared_sine)(*u)).collect();
-        are_alike(sines, &due)
-    });
-    let cosines: Vec<_> = sines.iter().map(|sine| (1.0 - sine).max(0.0).sqrt()).collect();
-    let cosine = mean(&cosines);
+    let law = LAWS.iter().find(|law| are_alike(sines, &law.squared_sines()));
+    let cosine = mean_cosine(directions);
     if let Some(law) = law {
-        let found =
-            format!("{}: the mean cosine to the normal is {cosine:.3}; expected 0.667", law.what);
-        verdict.fault(Some(law.name), found, law.advice);
+        law_fault(law, directions, verdict);
     } else if !is_uniform(sines) {
         let found =
             format!("directions do not follow the cosine: its mean is {cosine:.3}; expected 0.667");
@@ -153,6 +159,19 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
         let advice = "Equation (3): theta = 2 pi u2, and u2 is in [0, 1).";
         verdict.fault(Some("not-even-around"), found, advice);
     }
+}
+
+fn law_fault(law: &Law, directions: &Directions, verdict: &mut Verdict) {
+    let cosine = mean_cosine(directions);
+    let found =
+        format!("{}: the mean cosine to the normal is {cosine:.3}; expected 0.667", law.what);
+    verdict.fault(Some(law.name), found, law.advice);
+}
+
+fn mean_cosine(directions: &Directions) -> f64 {
+    let cosines: Vec<_> =
+        directions.sines.iter().map(|sine| (1.0 - sine).max(0.0).sqrt()).collect();
+    mean(&cosines)
 }
 
 /// Whether the angle to the normal and that around it are independent.

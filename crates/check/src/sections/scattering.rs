@@ -9,12 +9,13 @@ use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
 use variants::section::Section;
 
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     Step::Black,
     Step::White,
     Step::Colour(0),
     Step::Colour(1),
     Step::Colour(2),
+    Step::Colour(3),
     Step::GreyCube,
     Step::Threshold(-1024),
     Step::Threshold(0),
@@ -33,12 +34,19 @@ struct Rule {
     chance: fn(Vec3) -> f32,
 }
 
-const RULES: [Rule; 13] = [
+const RULES: [Rule; 14] = [
     Rule {
         name: "no-roulette",
         what: "every photon scatters, whatever the material",
         advice: ROULETTE,
         chance: |_| 1.0,
+    },
+    Rule {
+        name: "no-roulette",
+        what: "every photon scatters, unless the material is black",
+        advice: "Dividing two integers, rand() / RAND_MAX, gives 0, which is always less than P_r: \
+                 make one of them a float first.",
+        chance: |d| f32::from(u8::from(d.max_element() > 0.0)),
     },
     Rule {
         name: "mean-roulette",
@@ -126,6 +134,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         (Step::Colour(0), COLOURS[0]),
         (Step::Colour(1), COLOURS[1]),
         (Step::Colour(2), COLOURS[2]),
+        (Step::Colour(3), COLOURS[3]),
         (Step::Floor, Vec3::splat(0.5)),
     ]
     .into_iter()

@@ -64,7 +64,19 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
                 .to_owned(),
         );
     }
-    verdict.finish(observed, "TracePhoton", &STEPS)
+    // What stores the photon first and dies then, dies in what comes after: the roulette.
+    let stores_before_dying = observed.death(Step::Black).is_some()
+        && observed.death(Step::StoreLater(2)).is_some()
+        && calls(Step::StoreLater(2)).iter().all(|call| call.stored.len() == 1);
+    let own: Vec<_> = STEPS
+        .into_iter()
+        .filter(|step| !(stores_before_dying && is_on_black_wall(*step)))
+        .collect();
+    verdict.finish(observed, "TracePhoton", &own)
+}
+
+fn is_on_black_wall(step: Step) -> bool {
+    matches!(step, Step::StoreFirst | Step::StoreLater(_))
 }
 
 fn judge_first(calls: &[Call], verdict: &mut Verdict) {
