@@ -126,7 +126,7 @@ fn where_of(step: Step) -> String {
         Step::GrowPath => "a closed white cube, a path of length 1".to_owned(),
         Step::Black => "a wall with P_r = 0".to_owned(),
         Step::White => "a wall with P_r = 1".to_owned(),
-        Step::Colour(_) => "a coloured wall with P_r = 0.8".to_owned(),
+        Step::Colour(_) => "a colored wall with P_r = 0.8".to_owned(),
         Step::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
         Step::Threshold(_) => "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned(),
         Step::Floor => "a floor with P_r = 0.5".to_owned(),
