@@ -42,7 +42,7 @@ const COUNT_DIGITS: usize = 13;
 pub struct PhotonRecord {
     /// The point hit, in world space.
     pub position: Vec3,
-    /// The light's colour divided by the number of photons it emits.
+    /// The light's color divided by the number of photons it emits.
     pub intensity: Vec3,
     /// The unit direction back to where the photon came from.
     pub to_light: Vec3,

@@ -77,7 +77,7 @@ const Choice mistakes[] = {
     {"no-square-root", &Variant::no_square_root, "r = u1"},
     {"no-absolute-value", &Variant::no_absolute_value,
      "n . (1, 0, 0) close to 1, but not to -1; t and b as written"},
-    {"nan-frame", &Variant::nan_frame, "the same, t and b normalised"},
+    {"nan-frame", &Variant::nan_frame, "the same, t and b normalized"},
     {"mean-roulette", &Variant::mean_roulette, "P_r is the mean of d"},
     {"red-roulette", &Variant::red_roulette, "P_r is the red of d"},
     {"no-roulette", &Variant::no_roulette, "always scatters; wants a small --max-bounces"},
@@ -95,7 +95,7 @@ const Choice mistakes[] = {
 };
 
 const Choice readings[] = {
-    {"literal", &Variant::literal, "t and b as written, not normalised"},
+    {"literal", &Variant::literal, "t and b as written, not normalized"},
     {"axis-z", &Variant::axis_z, "(0, 0, 1) where (1, 0, 0) is parallel"},
     {"first-axis-y", &Variant::first_axis_y, "(0, 1, 0) in equation (7)"},
     {"exchanged", &Variant::exchanged, "t and b exchanged"},

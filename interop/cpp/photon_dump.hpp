@@ -16,7 +16,7 @@
 // A photon is any type with the members `position` and `intensity` (vectors with .x .y .z or [0]
 // [1] [2]) and `toLightRay` (such a vector, or a ray with GetRayDirection()).
 //
-// Columns: x y z in world coordinates; intensity_r intensity_g intensity_b, the light's colour
+// Columns: x y z in world coordinates; intensity_r intensity_g intensity_b, the light's color
 // divided by the photons it emitted; to_light_x to_light_y to_light_z, against the photon's flight;
 // photon, its number; bounce, 1 at the second hit of a path, since the first is not stored;
 // surface, the object that was hit, by its place in the model file from 0. The last three are

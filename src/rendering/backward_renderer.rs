@@ -6,7 +6,7 @@ use crate::scene::Scene;
 use crate::scene::point_light::PointLight;
 use crate::scene::ray::{IntersectionState, Ray};
 
-/// The colour at the point of `state`: the diffuse response times the light's colour times the
+/// The color at the point of `state`: the diffuse response times the light's color times the
 /// cosine, over all lights in sight. As in the framework, light does not fade with distance.
 pub fn compute_sample_color(scene: &Scene, state: &IntersectionState) -> Vec3 {
     let mut color = Vec3::ZERO;
@@ -19,7 +19,7 @@ pub fn compute_sample_color(scene: &Scene, state: &IntersectionState) -> Vec3 {
     color
 }
 
-/// The shadow ray from the point of `state` to `light`, and the colour that arrives unless
+/// The shadow ray from the point of `state` to `light`, and the color that arrives unless
 /// something is in between. No light arrives at a surface that is turned away.
 pub fn light_towards(scene: &Scene, state: &IntersectionState, light: &PointLight) -> (Ray, Vec3) {
     let hit_mesh_object = &scene.mesh_objects()[state.primitive(scene).parent_mesh_object];

@@ -1,4 +1,4 @@
-//! From colours to a picture: C++ `RayTracer::Run` and `ImageWriter`.
+//! From colors to a picture: C++ `RayTracer::Run` and `ImageWriter`.
 
 use glam::Vec3;
 use image::RgbImage;

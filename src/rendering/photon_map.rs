@@ -100,7 +100,7 @@ fn cell(position: Vec3) -> [i64; 3] {
 }
 
 fn bucket(cell: [i64; 3], buckets: usize) -> usize {
-    // Three large odd numbers spread neighbouring cells; the top bits are the best mixed.
+    // Three large odd numbers spread neighboring cells; the top bits are the best mixed.
     let mixed = (cell[0] as u64)
         .wrapping_mul(0x9E37_79B9_7F4A_7C15)
         .wrapping_add((cell[1] as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F))

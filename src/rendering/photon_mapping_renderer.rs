@@ -20,7 +20,7 @@ pub const PHOTON_DOT_RADIUS: f32 = 0.003;
 pub struct Photon {
     /// The point hit, in world space.
     pub position: Vec3,
-    /// The light's colour divided by the number of photons it emits. As the handout asks, the
+    /// The light's color divided by the number of photons it emits. As the handout asks, the
     /// roulette does not change it: right for the dots, wrong for radiance.
     pub intensity: Vec3,
     /// From the point hit back to where the photon came from.
@@ -160,7 +160,7 @@ impl PhotonMappingRenderer {
         self.stored_scene.spawn_ray(state, world_space_direction.normalize())
     }
 
-    /// The colour that `camera_ray` sees, direct light plus red where a photon is near: C++
+    /// The color that `camera_ray` sees, direct light plus red where a photon is near: C++
     /// `ComputeSampleColor`.
     pub fn compute_sample_color(&self, camera_ray: &Ray) -> Vec3 {
         let mut state = IntersectionState::new();

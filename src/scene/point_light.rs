@@ -9,7 +9,7 @@ use super::ray::Ray;
 pub struct PointLight {
     /// Where it stands, in world space: C++ `SceneObject::GetPosition()`.
     pub position: Vec3,
-    /// Its colour, which its photons share evenly: C++ `Light::GetLightColor()`.
+    /// Its color, which its photons share evenly: C++ `Light::GetLightColor()`.
     pub color: Vec3,
 }
 
@@ -26,8 +26,8 @@ impl PointLight {
             let y = 2.0 * rand() - 1.0;
             let z = 2.0 * rand() - 1.0;
             let length_squared = x * x + y * y + z * z;
-            // The handout rejects only points outside the sphere. The centre has no direction
-            // either: normalised, it would be NaN.
+            // The handout rejects only points outside the sphere. The center has no direction
+            // either: normalized, it would be NaN.
             if length_squared <= 1.0 && length_squared > 0.0 {
                 break Vec3::new(x, y, z);
             }

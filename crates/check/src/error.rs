@@ -29,7 +29,7 @@ pub enum CheckError {
         message: String,
     },
     /// A path does not exist or cannot be read.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: cannot be read: {source}", path.display())]
     Unreadable {
         /// The path.
         path: PathBuf,

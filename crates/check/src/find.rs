@@ -114,7 +114,8 @@ pub fn refuse_class(path: &Path) -> Result<(), CheckError> {
     }
 }
 
-fn name_of(path: &Path) -> String {
+/// What the submission at `path` is called.
+pub fn name_of(path: &Path) -> String {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     name.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()

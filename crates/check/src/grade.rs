@@ -46,11 +46,11 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
     }
     findings.extend(report.remarks.iter().map(|text| remark(REMARK, "", text, "")));
     let faults = || report.sections.iter().flat_map(|verdict| &verdict.faults);
-    let misreading = faults().find_map(|fault| fault.name);
-    let misreading = misreading.or_else(|| {
-        let of_list = of_list.filter(|_| decides)?;
-        of_list.misreading
-    });
+    let named = faults().find(|fault| fault.name.is_some());
+    // What was seen to run needs no statistics.
+    let by_list = of_list.filter(|_| decides && named.is_none());
+    let misreading =
+        named.and_then(|fault| fault.name).or_else(|| by_list.and_then(|grade| grade.misreading));
     let is_grave = |finding: &Finding| finding.is_fault() && finding.weight == Weight::Grave;
     let is_plausible = !of_list.is_some_and(|grade| grade.findings.iter().any(is_grave))
         && faults().all(|fault| fault.name != Some("direct-stored"));
@@ -69,8 +69,10 @@ pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) 
             .unwrap_or_else(|| settings.policy.score(verdict, misreading, is_plausible)),
         verdict,
         misreading,
-        misreading_confidence: misreading.map(|_| 1.0),
-        misreading_title: faults().find(|fault| fault.name == misreading).map(|f| f.found.clone()),
+        misreading_confidence: by_list.and_then(|grade| grade.misreading_confidence),
+        misreading_title: named
+            .map(|fault| fault.found.clone())
+            .or_else(|| by_list.and_then(|grade| grade.misreading_title.clone())),
         findings,
         for_course: Vec::new(),
     };

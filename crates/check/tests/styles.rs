@@ -37,7 +37,7 @@ const MISTAKES: [(u8, Section, &str); 16] = [
 ];
 
 /// Fair readings, by their numbers, with a word of what is said of them.
-const FAIR: [(u8, &str); 4] = [(0, ""), (17, "not normalised"), (18, "offset"), (19, "")];
+const FAIR: [(u8, &str); 4] = [(0, ""), (17, "not normalized"), (18, "offset"), (19, "")];
 
 fn faults(verdicts: &[Verdict]) -> Vec<(Section, &'static str)> {
     let of = |verdict: &Verdict| {

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use check::find::{Submission, refuse_class};
+use check::find::{Submission, name_of, refuse_class};
 use check::kit::Kit;
 use check::sandbox::has_bubblewrap;
 use check::{Report, Settings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
-use grading::page::{Pages, index::index};
+use grading::page::{Pages, index::Index};
 use grading::text::verdict_in_words;
 use grading::verdict::Grade;
 use photon_list::writer::{Format, ListWriter};
@@ -17,7 +17,7 @@ use photon_mapping::assignment8;
 use rayon::prelude::*;
 
 use super::error::{CliError, print};
-use super::grade::{file_names, json};
+use super::grade::{INDEX, file_names, json, made_by, refuse_others};
 use super::output::{OutputFile, write};
 use super::{progress, values};
 
@@ -94,7 +94,8 @@ impl FormatName {
 struct Checked {
     report: Report,
     grade: Grade,
-    /// The file of its own, in formats that have one.
+    /// The name and the text of the file of its own, in formats that have one.
+    file: String,
     output: String,
 }
 
@@ -114,6 +115,12 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             format!("--out: expected a folder for a file of each of {} submissions", paths.len());
         return Err(CliError::Argument(message));
     }
+    // As a submission is called when it was found.
+    let names: Vec<String> = paths.iter().map(|path| name_of(path)).collect();
+    let files = file_names(names.iter().map(String::as_str), extension.unwrap_or_default());
+    if let (Some(extension), Some(folder)) = (extension, &arguments.out) {
+        refuse_others(folder, &files, extension)?;
+    }
     if !has_bubblewrap() {
         super::complain(
             "note: bubblewrap is not installed, so submissions can read files of this account",
@@ -132,10 +139,11 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         policy: super::grade::policy(arguments.policy.as_deref())?,
     };
     let expectations = super::grade::expectations(assignment8::MAX_PHOTON_BOUNCES);
-    let pages = Pages::new(&expectations, &grading.policy);
+    let has_index = extension.is_some();
+    let pages = Pages::new(&expectations, &grading.policy, has_index);
     let best = grading.policy.best();
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
-    let one = |path: &PathBuf| -> Result<Checked, CliError> {
+    let one = |(path, file): (&PathBuf, String)| -> Result<Checked, CliError> {
         let submission = Submission::find(path).map_err(argument)?;
         let report = check(&submission, &kit, &settings).map_err(argument)?;
         let graded = check::grade::grade(&report, &grading, &expectations);
@@ -152,9 +160,10 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             write_list(path, &report)?;
         }
         bar.inc(1);
-        Ok(Checked { report: Report { list: None, ..report }, grade: graded.grade, output })
+        let report = Report { list: None, ..report };
+        Ok(Checked { report, grade: graded.grade, file, output })
     };
-    let results: Vec<Result<Checked, CliError>> = paths.par_iter().map(one).collect();
+    let results: Vec<Result<Checked, CliError>> = paths.par_iter().zip(files).map(one).collect();
     bar.finish_and_clear();
     let mut failed = 0;
     let mut all = Vec::new();
@@ -196,14 +205,13 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
 
 /// A file for each submission in `folder`; for pages, one more that leads to them.
 fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Result<(), CliError> {
-    let names = all.iter().map(|checked| checked.report.submission.as_str());
-    let files = file_names(names, extension);
-    for (checked, file) in all.iter().zip(&files) {
-        write(&folder.join(file), &checked.output)?;
+    for checked in all {
+        write(&folder.join(&checked.file), &checked.output)?;
     }
     if extension == "html" {
-        let pages: Vec<_> = all.iter().map(|checked| &checked.grade).zip(files).collect();
-        write(&folder.join("index.html"), &index(&pages, best))?;
+        let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
+        let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
+        write(&folder.join(INDEX), &index.page())?;
     }
     Ok(())
 }

@@ -9,10 +9,12 @@ use clap::Args;
 use serde::Serialize;
 
 use super::error::{CliError, print};
-use super::output::OutputFile;
+use super::output::{OutputFile, write};
+use super::progress;
 use super::run_args::RunArgs;
 use compare::pictures::compare_pictures;
 use compare::report::{Outcome, compare, scene_size};
+use grading::page::difference;
 use photon_list::ply;
 use photon_list::reader::{self, PhotonList};
 use photon_list::record::Columns;
@@ -40,7 +42,7 @@ pub struct CompareArgs {
     #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
     /// For lists: two positions closer than this are the same, as a fraction of the scene's longest
-    /// edge (0.0001 is a fifth of a millimetre in a box of two metres)
+    /// edge (0.0001 is a fifth of a millimeter in a box of two meters)
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
     tolerance: f32,
     /// For lists: the fraction of the records that may differ while the lists still count as the
@@ -55,12 +57,16 @@ pub struct CompareArgs {
     /// framework's picture of the reference's list has up to 5 such
     #[arg(long, value_name = "N", default_value_t = 0)]
     dots: u64,
-    /// For pictures: where to write the difference picture
-    #[arg(long, value_name = "DIFF.png")]
+    /// For pictures: where to write the difference picture; if the name ends in .html, a page with
+    /// the difference, a legend and both pictures
+    #[arg(long, value_name = "DIFF.png|DIFF.html")]
     out: Option<PathBuf>,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
+    /// No progress bar
+    #[arg(long, short)]
+    quiet: bool,
     #[command(flatten)]
     run: RunArgs,
 }
@@ -124,7 +130,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
                 let message = format!("{submission}: expected a photon list, found a picture");
                 return Err(CliError::Argument(message));
             }
-            (trace(&run), submission)
+            (trace(&run, arguments.quiet), submission)
         }
         _ => {
             return Err(CliError::Argument(
@@ -155,7 +161,9 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     }
     // Lists have world positions, and a scene need not be traced at its own size.
     let tolerance = arguments.tolerance * run.placement.length_to_world(scene_size(run.scene()));
+    let waiting = progress::waiting(arguments.quiet, "comparing");
     let mut report = compare(&reference, &submission, Some(&run), tolerance, arguments.allow);
+    waiting.finish_and_clear();
     if outside > 0 {
         // What was left out cannot be called the same.
         report.outcome = Outcome::Different;
@@ -192,14 +200,17 @@ fn name_run(arguments: &CompareArgs, reference: &Path, run: &mut Run) -> Option<
     Some(part)
 }
 
-fn trace(run: &Run) -> PhotonList {
+fn trace(run: &Run, quiet: bool) -> PhotonList {
     let mut records: Vec<PhotonRecord> = Vec::new();
+    let bar = progress::bar(quiet, "photons", run.renderer.emitted());
     let traced: Result<_, std::convert::Infallible> =
-        run.trace_list(0..run.renderer.emitted(), |piece, _| {
+        run.trace_list(0..run.renderer.emitted(), |piece, done| {
             records.extend_from_slice(piece);
+            bar.set_position(done);
             Ok(())
         });
     let Ok(_) = traced;
+    bar.finish_and_clear();
     let columns =
         Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
     PhotonList { columns, records }
@@ -208,7 +219,11 @@ fn trace(run: &Run) -> PhotonList {
 fn pictures(arguments: &CompareArgs, reference: &Path, submission: &Path) -> Result<u8, CliError> {
     let (reference, submission) = (read_picture(reference)?, read_picture(submission)?);
     let (report, difference) = compare_pictures(&reference, &submission, arguments.dots);
-    if let Some((path, difference)) = arguments.out.as_ref().zip(difference) {
+    let page = arguments.out.as_ref().filter(|path| path.extension().is_some_and(|e| e == "html"));
+    if let Some(path) = page {
+        let page = difference::page(&reference, &submission, difference.as_ref(), &report.text());
+        write(path, &page)?;
+    } else if let Some((path, difference)) = arguments.out.as_ref().zip(difference) {
         let mut file = OutputFile::create(path)?;
         let mut png = io::BufWriter::new(file.file());
         let written = difference.write_to(&mut png, image::ImageFormat::Png);

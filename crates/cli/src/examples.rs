@@ -3,6 +3,7 @@
 use clap::{Command, CommandFactory};
 
 use super::Cli;
+use super::color::option;
 
 /// Verbs, and how they are used most.
 const EXAMPLES: [(&str, &str); 9] = [
@@ -19,7 +20,7 @@ const EXAMPLES: [(&str, &str); 9] = [
 
 /// The command line, with an example for each verb.
 pub fn command() -> Command {
-    EXAMPLES.iter().fold(Cli::command(), |command, (verb, example)| {
+    EXAMPLES.iter().fold(Cli::command().arg(option()), |command, (verb, example)| {
         command.mut_subcommand(verb, |verb| {
             let before = verb.get_after_help().map(|help| format!("{help}\n\n"));
             verb.after_help(format!("{}Example: {example}", before.unwrap_or_default()))

@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::beside_expected::shares;
 use super::error::{CliError, print};
+use super::progress;
 use super::run_args::SceneArgs;
 use oracle::Accuracy;
 use oracle::table::ExpectedTable;
@@ -23,6 +24,9 @@ pub struct ExpectArgs {
     /// Print the table as JSON
     #[arg(long)]
     json: bool,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
 }
 
 /// Computes the table, and prints it.
@@ -34,7 +38,9 @@ pub fn run(arguments: &ExpectArgs) -> Result<u8, CliError> {
     let (scene, placement) = arguments.scene.load()?;
     let run = Run::of_scene(scene, placement, SEED, PHOTON_COUNT);
     let shares = shares(&run, 0..run.renderer.emitted());
+    let waiting = progress::waiting(arguments.quiet, "computing");
     let table = ExpectedTable::compute(run.scene(), &shares, accuracy);
+    waiting.finish_and_clear();
     if arguments.json {
         let json = serde_json::to_string_pretty(&table).expect("a table has only plain values");
         print(&(json + "\n"))?;

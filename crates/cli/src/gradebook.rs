@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use grading::intake::HandedIn;
-use grading::text::verdict_in_words;
-use grading::verdict::{Grade, Weight};
+use grading::text::{last_part, verdict_in_words};
+use grading::verdict::Grade;
 use serde::Deserialize;
 
 use super::error::CliError;
@@ -111,7 +111,7 @@ impl GradebookArgs {
 /// What a student or a course system called the file or folder `name`: its path's end, without what
 /// says that it is a list or a picture.
 fn last_word(name: &str) -> &str {
-    let word = Path::new(name).file_name().and_then(|word| word.to_str()).unwrap_or(name);
+    let word = last_part(name);
     let is_kind = |kind: &str| ["csv", "ply", "png"].contains(&kind.to_lowercase().as_str());
     match word.rsplit_once('.') {
         Some((word, kind)) if is_kind(kind) => word,
@@ -171,6 +171,11 @@ impl Class {
         self.is_anonymous
     }
 
+    /// The names of those who handed in nothing.
+    pub fn absent(&self) -> Vec<&str> {
+        self.absent.iter().map(|one| one.name.as_str()).collect()
+    }
+
     /// What people read after the grades: what changed, and who handed in nothing.
     pub fn text(&self, grades: &[&Grade]) -> String {
         let mut text = String::new();
@@ -192,8 +197,7 @@ impl Class {
             text += &changed.iter().map(|line| format!("  {line}\n")).collect::<String>();
         }
         if !self.absent.is_empty() {
-            let names: Vec<&str> = self.absent.iter().map(|one| one.name.as_str()).collect();
-            text += &format!("\nhanded in nothing: {}\n", names.join(", "));
+            text += &format!("\nhanded in nothing: {}\n", self.absent().join(", "));
         }
         text
     }
@@ -207,13 +211,6 @@ impl Class {
         for (at, grade) in grades.iter().enumerate() {
             let student = self.students.get(at).and_then(Option::as_ref).unwrap_or(&nobody);
             let student = if self.is_anonymous { &nobody } else { student };
-            let faults = grade.findings.iter().filter(|finding| finding.is_fault());
-            let sections = each_once(faults.filter_map(|finding| finding.section));
-            let is_remark = |finding: &&grading::verdict::Finding| {
-                !finding.passed && finding.weight == Weight::Remark
-            };
-            let remarks = grade.findings.iter().filter(is_remark);
-            let remarks = each_once(remarks.map(|finding| finding.check));
             let misreading = grade.misreading.unwrap_or_default().to_owned();
             rows.push(vec![
                 last_word(&grade.submission).to_owned(),
@@ -221,9 +218,9 @@ impl Class {
                 student.email.clone(),
                 grade.score.to_string(),
                 verdict_in_words(grade.verdict).to_owned(),
-                sections,
+                grade.sections().join("; "),
                 misreading,
-                remarks,
+                grade.remarks().join("; "),
             ]);
         }
         for Student { name, id, email } in &self.absent {
@@ -253,16 +250,6 @@ impl Class {
 fn json_name(grade: &Grade) -> String {
     let name = serde_json::to_value(grade.verdict).expect("a verdict has a name");
     name.as_str().unwrap_or_default().to_owned()
-}
-
-fn each_once<'a>(words: impl Iterator<Item = &'a str>) -> String {
-    let mut once: Vec<&str> = Vec::new();
-    for word in words {
-        if !once.contains(&word) {
-            once.push(word);
-        }
-    }
-    once.join("; ")
 }
 
 /// Spreadsheets run a cell that starts like a formula, and students choose the names of files.

@@ -4,6 +4,7 @@ mod autograde;
 mod beside_expected;
 #[cfg(unix)]
 mod check;
+mod color;
 mod compare;
 mod error;
 mod examples;
@@ -28,6 +29,7 @@ use std::ffi::OsString;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use clap::{FromArgMatches, Parser, Subcommand};
 
@@ -46,6 +48,9 @@ const VERSION: &str = concat!(
     env!("CARGO_PKG_VERSION_MINOR"),
     ")"
 );
+
+/// What `--color` says.
+static COLOR: OnceLock<clap::ColorChoice> = OnceLock::new();
 
 /// The options that name what is written.
 const OUTPUTS: [&str; 2] = ["--out", "--list"];
@@ -112,7 +117,16 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         ));
         return FAILED;
     }
-    let matches = examples::command().try_get_matches_from(shell::quiet_after_verb(words.clone()));
+    let (color, words) = match color::take(words) {
+        Ok((choice, words)) => (choice, words),
+        Err(message) => {
+            complain(&format!("error: {message}"));
+            return FAILED;
+        }
+    };
+    let _ = COLOR.set(color);
+    let command = examples::command().color(color);
+    let matches = command.try_get_matches_from(shell::quiet_after_verb(words.clone()));
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) if !error.use_stderr() => {
@@ -180,7 +194,19 @@ fn inputs(words: &[OsString]) -> impl Iterator<Item = PathBuf> {
 
 /// Prints `line` to standard error; where that cannot be written, the exit code alone must do.
 fn complain(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", escaped(line));
+    let color = COLOR.get().copied().unwrap_or_default();
+    let line = color::message(&escaped(&without_codes(line)), color);
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// `line` without the system's numbers of errors, which stand beside their words.
+fn without_codes(line: &str) -> String {
+    let mut parts = line.split(" (os error ");
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        plain += part.split_once(')').map_or(part, |(_, rest)| rest);
+    }
+    plain
 }
 
 /// The error `text` of clap on one line: what is wrong, and what may have been meant.

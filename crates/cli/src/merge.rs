@@ -46,7 +46,7 @@ struct CountOnly {
 /// Merges, and prints the summary.
 ///
 /// # Errors
-/// When the pieces are not neighbours of one run, or cannot be read, or the list cannot be written.
+/// When the pieces are not neighbors of one run, or cannot be read, or the list cannot be written.
 pub fn run(arguments: &MergeArgs) -> Result<u8, CliError> {
     let is_list = |path: &PathBuf| starts_with(path, b"ply");
     let lists: Vec<bool> = arguments.pieces.iter().map(is_list).collect::<Result<_, _>>()?;

@@ -1,8 +1,19 @@
 //! Progress bars.
 
 use std::io::{self, IsTerminal};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// A sign on a terminal that something goes on which has no parts to count, with the time it takes;
+/// nothing elsewhere, nor when `quiet`.
+pub fn waiting(quiet: bool, what: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {msg} {elapsed}");
+    let style = style.expect("the template is well formed");
+    let waiting = bar(quiet, what, 0).with_style(style);
+    waiting.enable_steady_tick(Duration::from_millis(100));
+    waiting
+}
 
 /// A bar for `length` of `what` on a terminal; nothing elsewhere, nor when `quiet`.
 pub fn bar(quiet: bool, what: &'static str, length: u64) -> ProgressBar {

@@ -20,7 +20,7 @@ pub struct SceneArgs {
     /// --light
     #[arg(long, value_name = "FILE.obj", requires = "light")]
     scene: Option<PathBuf>,
-    /// A point light of the scene: its position (z up), then its colour, white if left out; may be
+    /// A point light of the scene: its position (z up), then its color, white if left out; may be
     /// given several times, photons are shared by brightness
     #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
           allow_hyphen_values = true)]
@@ -67,7 +67,7 @@ pub struct RunArgs {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// Use t and b as equations (7) and (8) give them, without normalising, to see what that
+    /// Use t and b as equations (7) and (8) give them, without normalizing, to see what that
     /// changes
     #[arg(long)]
     pub letter_of_the_handout: bool,

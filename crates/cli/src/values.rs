@@ -42,7 +42,7 @@ pub fn light(text: &str) -> Result<ModelLight, String> {
             position: DVec3::new(*x, *y, *z),
             color: DVec3::from_slice(color).as_vec3(),
         }),
-        _ => Err("expected x,y,z or x,y,z,r,g,b: finite numbers, the colour not negative and not \
+        _ => Err("expected x,y,z or x,y,z,r,g,b: finite numbers, the color not negative and not \
                   black"
             .to_owned()),
     }

@@ -197,7 +197,7 @@ fn a_ply_list_names_its_run() {
     run_line(line, &[&csv]).success();
     let report = json(run_line("compare --json {} {}", &[&ply, &csv.join("photons.ply")]).code(0));
     assert_eq!(report["outcome"], "same-under-another-reading");
-    let reading = "t and b to the letter of the handout, not normalised";
+    let reading = "t and b to the letter of the handout, not normalized";
     assert_eq!(report["reading"], reading);
     assert_eq!(report["first_divergence"]["section"], "Hemisphere Ray Transformation");
 }
@@ -443,7 +443,7 @@ fn the_header_names_the_reading() {
     let csv = folder.path().join("csv");
     let other = reference_csv_in(&csv);
     let report = json(run_line("compare --json {} {}", &[&ply, &other]).code(0));
-    assert_eq!(report["reading"], "t and b normalised");
+    assert_eq!(report["reading"], "t and b normalized");
 }
 
 fn reference_csv_in(folder: &Path) -> PathBuf {

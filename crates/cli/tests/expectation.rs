@@ -87,9 +87,9 @@ fn command_prints_the_table() {
 fn what_no_photon_can_hit_is_a_plain_zero() {
     let folder = tempfile::TempDir::new().unwrap();
     let model =
-        "mtllib quad.mtl\no quad\nusemtl grey\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n";
+        "mtllib quad.mtl\no quad\nusemtl gray\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n";
     std::fs::write(folder.path().join("quad.obj"), model).unwrap();
-    std::fs::write(folder.path().join("quad.mtl"), "newmtl grey\nKd 0.5 0.5 0.5\n").unwrap();
+    std::fs::write(folder.path().join("quad.mtl"), "newmtl gray\nKd 0.5 0.5 0.5\n").unwrap();
     let mut command = Command::cargo_bin("photon-mapping").unwrap();
     command.current_dir(folder.path()).args(["expect", "--scene", "quad.obj", "--light", "0,0,1"]);
     let output = command.output().unwrap();

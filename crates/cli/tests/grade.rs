@@ -539,15 +539,21 @@ fn a_policy_sets_the_scores() {
     let grade = &grades(std::slice::from_ref(&list), &["--policy", policy.to_str().unwrap()])[0];
     assert_eq!(grade["score"], 2.5);
     for (text, parts) in [
-        (r#"{ "corect": 4 }"#, &["policy.json", "corect", "plausible"][..]),
-        (r#"{ "misreadings": { "off": 1 } }"#, &["'off'", "no-offset", "cube-directions"]),
-        (r#"{ "correct": "4" }"#, &["policy.json", "expected f64"]),
-        ("", &["policy.json"]),
-        ("[]", &["policy.json", "sequence"]),
+        (r#"{ "corect": 4 }"#, &["policy.json:1: ", "'corect'", "did you mean 'correct'?"][..]),
+        ("{ \"correct\": 4,\n \"price\": 1 }", &["policy.json:2: ", "'price'", "plausible"]),
+        (r#"{ "misreadings": { "off": 1 } }"#, &["'off'", "did you mean 'no-offset'?"]),
+        (r#"{ "misreadings": { "x": "1" } }"#, &["'x': expected a number, found \"1\""]),
+        (r#"{ "misreadings": { "wxyz": 1 } }"#, &["'wxyz'", "docs/misreadings.md"]),
+        (r#"{ "correct": "4" }"#, &["'correct': expected a number, found \"4\""]),
+        (r#"{ "sections": 4 }"#, &["'sections': expected an object of scores, found 4"]),
+        ("", &["policy.json:1: expected '}', found the end of the file"]),
+        ("{\n\"correct\" 4 }", &["policy.json:2: expected JSON"]),
+        ("[]", &["policy.json:1: expected a JSON object"]),
         (
             r#"{ "sections": { "Emission": 4 } }"#,
-            &["no section is called 'Emission'", "Photon Storage"],
+            &["no section is called 'Emission'", "did you mean 'Photon Emission'?"],
         ),
+        (r#"{ "sections": { "Lights": 4 } }"#, &["'Lights'", "there are Photon Emission, Photon"]),
         (r#"{ "sections": { "Photon Storage": 3 } }"#, &["add up to 3, not to 4"]),
         (r#"{ "no-dots": -1 }"#, &["policy.json", "'no-dots' is -1", "from 0 to 'correct', 4"]),
         (r#"{ "misreadings": { "no-offset": 5 } }"#, &["'no-offset' is 5"]),

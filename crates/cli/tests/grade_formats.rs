@@ -224,6 +224,54 @@ fn every_submission_has_a_page_of_its_own() {
     assert!(fs::read_to_string(out.join("index.html")).unwrap().contains("6 submissions"));
 }
 
+/// A facet's count is the same in the findings and beside its plots.
+#[test]
+fn a_page_counts_the_photons_of_a_facet_once() {
+    let folder = folder();
+    let wrong = incorrect(folder.path(), "w.csv");
+    let grade = json(run_line("grade --format json --emitted 60000 {}", &[&wrong]).success());
+    let findings = grade["findings"].as_array().unwrap();
+    let found = findings.iter().find(|f| f["check"] == "facets").unwrap()["found"].as_str();
+    let (_, found) = found.unwrap().split_once("largest difference: ").unwrap();
+    let (facet, rest) = found.split_once(" has ").unwrap();
+    let (count, rest) = rest.split_once(" photons; expected ").unwrap();
+    let expected = rest.split(' ').next().unwrap();
+    let out = folder.path().join("page.html");
+    run_line("grade --format html --emitted 60000 --out {} {}", &[&out, &wrong]).success();
+    let page = fs::read_to_string(&out).unwrap();
+    let beside = format!("<h3>{facet}</h3><p>{count} found, {expected} expected</p>");
+    assert!(page.contains(&beside), "{beside}");
+}
+
+#[test]
+fn the_index_sums_up_a_class() {
+    let folder = folder();
+    let class = folder.path().join("class");
+    fs::create_dir(&class).unwrap();
+    let (right, wrong) = (correct(&class, "r.csv"), incorrect(&class, "w.csv"));
+    let out = folder.path().join("pages");
+    let line = "grade --format html --emitted 60000 --out {} {} {}";
+    run_line(line, &[&out, &right, &wrong]).success();
+    let index = fs::read_to_string(out.join("index.html")).unwrap();
+    for part in [
+        "Mean score: 3.50 of 4 points",
+        "<th scope=\"row\">Hemisphere Sampling</th>",
+        "<th scope=\"row\">uniform-hemisphere</th>",
+        "<td>Hemisphere Sampling</td><td>uniform-hemisphere</td>",
+        // The folder that all have in common is not said again.
+        "<a href=\"r.csv.html\">r.csv</a>",
+        "type=\"search\"",
+        "--format html --emitted 60000",
+    ] {
+        assert!(index.contains(part), "no {part} in\n{index}");
+    }
+    let page = fs::read_to_string(out.join("w.csv.html")).unwrap();
+    assert!(page.contains("<a href=\"index.html\">") && page.contains(">w.csv</h1>"));
+    // Pages of another run would pass for pages of this one.
+    fails(line, &[&out, &right, &right], &["--out", "files of another run", "w.csv.html"]);
+    run_line(line, &[&out, &right, &wrong]).success();
+}
+
 #[test]
 fn photons_straight_from_the_light_are_not_plausible() {
     let folder = folder();

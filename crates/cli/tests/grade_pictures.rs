@@ -598,7 +598,7 @@ fn hostile_pictures_are_unreadable_soon() {
         ("cut", good[..good.len() / 2].to_vec(), "broken"),
         ("start", good[..12].to_vec(), "ends too early"),
         ("animated", animated, "animated"),
-        ("grey", encode(grey.into()), "grey"),
+        ("gray", encode(grey.into()), "gray"),
         ("transparent", encode(transparent.into()), "transparent"),
         ("indexed", indexed, "broken"),
         ("large", large, "more than 4 MB"),

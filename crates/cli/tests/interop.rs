@@ -254,8 +254,12 @@ fn the_section_of_every_mistake_is_named() {
 }
 
 const READINGS: [(&str, &str); 13] = [
-    ("--reading literal", "t and b to the letter of the handout, not normalised"),
-    ("--threshold 0.7", "fallback threshold between 0.3011 and 0.9536"),
+    ("--reading literal", "t and b to the letter of the handout, not normalized"),
+    (
+        "--threshold 0.7",
+        "the fallback axis in equation (7) at absolute dot products of 0.9536 or more (not at \
+         0.3011)",
+    ),
     ("--reading axis-z", "fallback axis (0, 0, 1)"),
     ("--reading first-axis-y", "the axis (0, 1, 0) in equation (7)"),
     ("--reading exchanged", "t and b exchanged"),
@@ -270,11 +274,12 @@ const READINGS: [(&str, &str); 13] = [
     ),
     (
         "--threshold 0.8 --offset-normal 1e-3",
-        "fallback threshold between 0.3011 and 0.9536, offset 1e-3 along the normal",
+        "the fallback axis in equation (7) at absolute dot products of 0.9536 or more (not at \
+         0.3011), offset 1e-3 along the normal",
     ),
     (
         "--reading literal --offset-normal 0 --offset-back 6.7e-3",
-        "t and b to the letter of the handout, not normalised, offset 6.7e-3 back along the ray",
+        "t and b to the letter of the handout, not normalized, offset 6.7e-3 back along the ray",
     ),
 ];
 
@@ -315,7 +320,7 @@ fn a_mistake_is_found_behind_a_fair_reading() {
         ),
         (
             "--mistake mean-roulette --reading literal --offset-normal 1e-3",
-            "t and b to the letter of the handout, not normalised, offset 1e-3 along the normal",
+            "t and b to the letter of the handout, not normalized, offset 1e-3 along the normal",
             "Photon Scattering/Absorption",
         ),
     ] {

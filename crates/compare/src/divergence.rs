@@ -136,7 +136,7 @@ impl Lists<'_> {
         };
         let reason = match difference {
             Difference::Intensity => {
-                "intensity is the light's colour divided by the photons it emits"
+                "intensity is the light's color divided by the photons it emits"
             }
             _ => "to_light is the opposite of the photon ray's direction",
         };

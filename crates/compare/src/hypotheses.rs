@@ -63,7 +63,7 @@ pub fn hypotheses(
             let normalised = Mat3::from_cols(unit_tangent, n.cross(unit_tangent), n);
             let other_axis = "t is the cross product of n with another axis";
             all.push((transformation, other_axis, normalised * local));
-            all.push((transformation, "t and b are not normalised", literal * local));
+            all.push((transformation, "t and b are not normalized", literal * local));
         }
     }
     all

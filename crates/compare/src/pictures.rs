@@ -8,6 +8,8 @@ use super::report::Outcome;
 
 /// A dot adds all red there is to a pixel, which no surface of the box comes near by direct light.
 const RED_OF_DOT: u8 = 255;
+/// Dots that both have: lighter than any surface, and darker than what differs.
+const MATCHING: Rgb<u8> = Rgb([120; 3]);
 
 /// The comparison of two pictures. Within the tolerance means here that every pixel, but for as
 /// many as may differ, has or lacks its dot as it should, and that no channel is further off than
@@ -31,9 +33,9 @@ pub struct PictureReport {
 }
 
 /// Compares two pictures, of which `allowed` pixels may have or lack a dot that the other has not.
-/// The difference picture shows the reference in grey, dots that both have in white, missing dots
-/// in blue, extra dots in red, and other differences in yellow; there is none when the pictures
-/// have different sizes.
+/// The difference picture shows the reference in gray, dots that both have a little lighter,
+/// missing dots in blue, extra dots in red, and other differences in yellow. There is none when the
+/// pictures have different sizes.
 pub fn compare_pictures(
     reference: &RgbImage,
     submission: &RgbImage,
@@ -73,7 +75,7 @@ pub fn compare_pictures(
                 Rgb([255, 0, 0])
             }
             _ if steps > 1 => Rgb([255, 255, 0]),
-            (true, true) => Rgb([255; 3]),
+            (true, true) => MATCHING,
             (false, false) => Rgb([grey; 3]),
         };
     }

@@ -180,7 +180,7 @@ fn judge_not_finite(previous: &Hit) -> Verdict {
     if x.abs() > 0.99 {
         let reason = format!(
             "the normal ({x}, {y}, {z}) is parallel to (1, 0, 0), so that t has no length, and \
-             normalising it gives NaN"
+             normalizing it gives NaN"
         );
         return certain(section, reason);
     }

@@ -337,7 +337,7 @@ fn the_keyboard_alone_is_enough() {
         reached.push(browser.text("document.activeElement.id || document.activeElement.tagName"));
     }
     for id in [
-        "view", "home", "centre", "colors", "walls", "alone", "dots", "previous", "photon", "next",
+        "view", "home", "center", "colors", "walls", "alone", "dots", "previous", "photon", "next",
         "play", "slider",
     ] {
         assert!(reached.iter().any(|name| name == id), "{id}: {reached:?}");

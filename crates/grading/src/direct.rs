@@ -5,6 +5,7 @@ use super::judge_list::Expectations;
 use super::observation::Observation;
 use super::signature::{Signature, classes};
 use super::statistics::towards;
+use super::text::rounded;
 use super::trial::LEEWAY;
 use super::verdict::{Finding, Weight};
 use variants::variation::{Emission, Variation};
@@ -78,9 +79,10 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
             weight: Weight::Grave,
             ..straight_from_the_light(
                 format!(
-                    "{:.0} of {all:.0} lie on {}, where hardly any come but straight from the \
+                    "{} of {} lie on {}, where hardly any come but straight from the \
                      light",
-                    counts[class],
+                    rounded(counts[class]),
+                    rounded(all),
                     places.class_name(class)
                 ),
                 false,

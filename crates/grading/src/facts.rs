@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use super::judge_list::SIGNIFICANCE;
 use super::observation::{Observation, ToLight};
 use super::places::Places;
+use super::text::rounded;
 use super::verdict::{Finding, Weight};
+use compare::numbers::thousands;
 use variants::section::Section;
 
 /// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
@@ -45,7 +47,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             weight,
             advice: if passed { Cow::Borrowed("") } else { advice.into() },
         };
-    let of_all = |count: f64, all: f64| format!("{count:.0} of {all:.0}");
+    let of_all = |part: f64, all: f64| format!("{} of {}", rounded(part), rounded(all));
     let (repeated, on_facets) = (observation.repeated, counts.on_surfaces());
     let surfaces = places.surfaces.len();
     let is_repeated = repeated > (MOST_REPEATED * on_facets).max(2.0);
@@ -64,7 +66,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             counts.not_finite == 0.0,
             Weight::Grave,
             "Look for what makes numbers that are not finite: a division by 0, the root of a \
-             negative number, or a vector of length 0 that is normalised.",
+             negative number, or a vector of length 0 that is normalized.",
         ),
         fact(
             "on surfaces",
@@ -126,15 +128,15 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     if let Some([later, without]) = observation.gaps
         && later > 0
     {
-        let [part, count] = [without as f64 / later as f64, without as f64];
+        let part = without as f64 / later as f64;
         // Where most have none, the column counts something else than paths.
         let counts_paths = part < MOST_GAPS;
         findings.push(fact(
             "whole paths",
             storage,
             "for every bounce of a photon, a record of the one before",
-            format!("{without} of {later} records lack the one before"),
-            count <= (MOST_ASTRAY * later as f64).max(2.0),
+            format!("{} of {} records lack the one before", thousands(without), thousands(later)),
+            without as f64 <= (MOST_ASTRAY * later as f64).max(2.0),
             if counts_paths { Weight::Fault } else { Weight::Remark },
             if counts_paths {
                 "Records are lost. Lock the photon map while a thread inserts into it, or give \
@@ -169,8 +171,12 @@ pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> F
     Finding {
         check: "enough photons",
         section: Some(Section::PhotonStorage.title()),
-        expected: format!("the photons of at least {FEW_EMITTED} emitted"),
-        found: format!("{} photons, of about {fitted:.0} emitted", observation.records),
+        expected: format!("the photons of at least {} emitted", rounded(FEW_EMITTED)),
+        found: format!(
+            "{} photons, of about {} emitted",
+            thousands(observation.records),
+            rounded(fitted)
+        ),
         p_value: None,
         passed,
         weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },
@@ -221,7 +227,7 @@ pub fn remarks(
     if observation.has_odd_intensity {
         findings.push(remark(
             "intensity",
-            "one intensity for all: the light's colour divided by the photons emitted",
+            "one intensity for all: the light's color divided by the photons emitted",
             "intensities that differ, or say nothing".to_owned(),
             false,
             "Set 'intensity' to lightIntensity as it is.",
@@ -232,8 +238,8 @@ pub fn remarks(
     {
         findings.push(remark(
             "intensity",
-            "the light's colour divided by the photons emitted",
-            format!("it is of {says:.0} emitted, not of {emitted:.0}"),
+            "the light's color divided by the photons emitted",
+            format!("it is of {} emitted, not of {}", rounded(says), rounded(emitted)),
             false,
             "Set 'intensity' to lightIntensity as it is.",
         ));
@@ -243,11 +249,16 @@ pub fn remarks(
     };
     let ToLight { set, not_unit, from_behind, to_the_light, all_alike } = to_light;
     let records = observation.records;
+    let of_set = |part: u64| format!("{} of {}", thousands(part), thousands(set));
     let is_set = set == records && !all_alike;
     findings.push(remark(
         "to_light set",
         "a direction for every photon",
-        if all_alike { "all the same".to_owned() } else { format!("{set} of {records} have one") },
+        if all_alike {
+            "all the same".to_owned()
+        } else {
+            format!("{} of {} have one", thousands(set), thousands(records))
+        },
         is_set,
         "Set 'toLightRay' to a ray in the opposite direction of the photon ray.",
     ));
@@ -259,14 +270,14 @@ pub fn remarks(
     findings.push(remark(
         "to_light length",
         "directions of length 1",
-        format!("{not_unit} of {set} are not"),
+        format!("{} are not", of_set(not_unit)),
         few(not_unit),
-        "Normalise the direction.",
+        "Normalize the direction.",
     ));
     findings.push(remark(
         "to_light direction",
         "directions to where the photon came from, in front of the surface",
-        format!("{from_behind} of {set} point behind the surface"),
+        format!("{} point behind the surface", of_set(from_behind)),
         few(from_behind),
         if nearly_all(from_behind) {
             "The sign is reversed: it points in the OPPOSITE direction of the photon ray."
@@ -283,14 +294,15 @@ pub fn remarks(
             "to_light source",
             "directions to where the photon came from",
             format!(
-                "{to_the_light} of {set} point straight to the light, but the photons do not lie \
-                 where those straight from the light do"
+                "{} point straight to the light, but the photons do not lie where those straight \
+                 from the light do",
+                of_set(to_the_light)
             ),
             false,
             "Set 'toLightRay' to a ray in the opposite direction of the photon ray that came here.",
         )
     } else {
-        let found = format!("{to_the_light} of {set} come straight from the light");
+        let found = format!("{} come straight from the light", of_set(to_the_light));
         straight_from_the_light(found, is_indirect)
     });
     findings

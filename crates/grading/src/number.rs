@@ -7,6 +7,7 @@
 
 use std::f64::consts::PI;
 
+use super::text::rounded;
 use super::verdict::{Finding, Weight};
 use variants::section::Section;
 
@@ -48,10 +49,10 @@ impl Slip {
 pub fn slip_finding(slip: Slip, number: f64, p_value: f64) -> Finding {
     Finding {
         found: format!(
-            "the intensity says {number:.0}; without a factor of {} it would say {:.0}, which the \
-             photons fit",
+            "the intensity says {}; without a factor of {} it would say {}, which the photons fit",
+            rounded(number),
             slip.name,
-            slip.emitted(number)
+            rounded(slip.emitted(number))
         ),
         weight: Weight::Remark,
         advice: "Set 'intensity' to lightIntensity as it is.".into(),
@@ -68,7 +69,9 @@ pub fn cannot_be(number: f64, stored: f64) -> bool {
 pub fn impossible(number: f64, fitted: f64, p_value: f64) -> Finding {
     Finding {
         found: format!(
-            "the intensity says {number:.0} emitted, which cannot be: the photons fit {fitted:.0}"
+            "the intensity says {} emitted, which cannot be: the photons fit {}",
+            rounded(number),
+            rounded(fitted)
         ),
         weight: Weight::Remark,
         advice: "Set 'intensity' to lightIntensity as it is.".into(),
@@ -82,7 +85,11 @@ pub fn contradiction(number: f64, fitted: f64, p_value: f64) -> Finding {
         check: "number by intensity",
         section: Some(Section::PhotonStorage.title()),
         expected: "photons for as many emitted as the intensity says".to_owned(),
-        found: format!("the intensity says {number:.0}, the photons fit {fitted:.0}"),
+        found: format!(
+            "the intensity says {}, the photons fit {}",
+            rounded(number),
+            rounded(fitted)
+        ),
         p_value: Some(p_value),
         passed: false,
         weight: Weight::Fault,

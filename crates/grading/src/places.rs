@@ -9,7 +9,7 @@ use photon_mapping::scene::Scene;
 pub const FAR_OFF: f64 = 7.5e-3;
 /// Photons this close to where another facet meets theirs are counted apart: which of the two they
 /// belong to cannot be told of a position that is slightly off.
-const MARGIN: f64 = 0.012;
+pub const MARGIN: f64 = 0.012;
 /// A large facet has 4 x 4 cells, a small one 2 x 2: its longest edge decides.
 const LARGE: f64 = 1.5;
 

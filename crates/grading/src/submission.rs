@@ -14,7 +14,7 @@ use super::picture::judge_picture;
 use super::picture::reading::read_picture;
 use super::picture::view::PIXELS;
 use super::policy::Policy;
-use super::text::printable;
+use super::text::{printable, rounded};
 use super::twins::Fingerprint;
 use super::verdict::{Finding, Grade, Verdict, Weight};
 use photon_list::error::{ListError, Reason};
@@ -249,8 +249,10 @@ fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Opti
         return None;
     }
     let found = format!(
-        "of {of_picture:.0} red pixels of the picture and {of_list:.0} of the list's photons, \
-         {both:.0} are the same"
+        "of {} red pixels of the picture and {} of the list's photons, {} are the same",
+        rounded(of_picture),
+        rounded(of_list),
+        rounded(both)
     );
     let advice = "Hand in the list and the picture of one run: the list is what is graded.";
     Some(remark("list and picture", "dots where the list's photons are", &found, advice))

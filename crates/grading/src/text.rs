@@ -1,6 +1,9 @@
 //! A grade as people read it.
 
 use std::borrow::Cow;
+use std::path::Path;
+
+use compare::numbers::thousands;
 
 use super::verdict::{Finding, Grade, Verdict, Weight};
 
@@ -43,6 +46,28 @@ pub fn verdict_in_words(verdict: Verdict) -> &'static str {
     }
 }
 
+/// `number`, rounded, as `1,234,567`.
+pub fn rounded(number: f64) -> String {
+    thousands(number.round() as u64)
+}
+
+/// The largest of several differences: `place` has `found` of `what`, `away` standard deviations
+/// from what is expected.
+pub fn difference(place: &str, found: f64, what: &str, expected: f64, away: f64) -> String {
+    let side = if away < 0.0 { "fewer" } else { "more" };
+    format!(
+        "largest difference: {place} has {} {what}; expected {} ({:.1} standard deviations {side})",
+        rounded(found),
+        rounded(expected),
+        away.abs()
+    )
+}
+
+/// The last part of the path `name`: what a student or a course system called a submission.
+pub fn last_part(name: &str) -> &str {
+    Path::new(name).file_name().and_then(|part| part.to_str()).unwrap_or(name)
+}
+
 /// `grade`, of at most `best` points.
 pub fn text(grade: &Grade, best: f64) -> String {
     let mut text = heading(grade, best);
@@ -73,14 +98,19 @@ pub fn heading(grade: &Grade, best: f64) -> String {
     let mut text = format!("{name}: {verdict}, {} of {best} points\n", grade.score);
     if let Some(stored) = grade.stored {
         let emitted = match grade.emitted {
-            Some(emitted) => format!("{emitted} emitted"),
+            Some(emitted) => format!("{} emitted", thousands(emitted)),
             None => {
                 "how many were emitted is not known, so only their shares are judged".to_owned()
             }
         };
-        text += &format!("  {stored} photons stored, {emitted}\n");
+        text += &format!("  {} photons stored, {emitted}\n", thousands(stored));
     }
-    if let Some(misreading) = grade.misreading {
+    if grade.wrong_sections().next().is_some() {
+        // Sections that were run say more than the name of one of them.
+        for wrong in grade.wrong_sections() {
+            text += &format!("  {}: {}\n", wrong.check, wrong.found);
+        }
+    } else if let Some(misreading) = grade.misreading {
         let confidence = grade.misreading_confidence.unwrap_or_default();
         let title = grade.misreading_title.as_deref().unwrap_or_default();
         let sure = 100.0 * confidence;

@@ -6,6 +6,7 @@ use super::observation::Observation;
 use super::signature::{Signature, classes};
 use super::statistics::{Law, Residual, corrected, fit, grouped, normal_tails, tails_of_count};
 use super::test::Test;
+use super::text::{difference, rounded};
 use variants::hypotheses::BOUNCE_OFF_BY_ONE;
 
 /// By which part of itself an expectation may be off for reasons that a course cannot fault: where
@@ -103,7 +104,7 @@ fn tests(
         tests.push(Test {
             check: "number",
             p_value: tails_of_count(found, expected, deviation.powi(2)),
-            found: format!("{found:.0} photons; expected {expected:.0}"),
+            found: format!("{} photons; expected {}", rounded(found), rounded(expected)),
         });
     }
 
@@ -168,12 +169,13 @@ fn tests(
         check: "known misreadings",
         p_value,
         // Whose way it is says little: the one that explains all is named for the whole.
-        found: format!("{farthest:.1} standard deviations on the way to one of them"),
+        found: format!("photons lean {farthest:.1} standard deviations towards one of them"),
     });
     if bounces_show(expectations.signatures.max_bounces) {
         // It shows so little that it needs a test of its own.
         let (farthest, p_value) = on_the_way(true);
-        let found = format!("{farthest:.1} standard deviations on the way to one bounce fewer");
+        let found =
+            format!("photons lean {farthest:.1} standard deviations towards one bounce fewer");
         tests.push(Test { check: "number of bounces", p_value, found });
     }
 
@@ -230,11 +232,5 @@ fn farthest(counts: &[f64], law: &Law, emitted: f64, name: impl Fn(usize) -> Str
     let z = |at: usize| (counts[at] - emitted * law.mean[at]) / deviations[at].max(1.0);
     let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
     let at = farthest.unwrap_or_default();
-    format!(
-        "largest difference: {}, {:.0} photons; expected {:.0} ({:+.1} standard deviations)",
-        name(at),
-        counts[at],
-        emitted * law.mean[at],
-        z(at)
-    )
+    difference(&name(at), counts[at], "photons", emitted * law.mean[at], z(at))
 }

@@ -84,7 +84,41 @@ pub struct Grade {
 /// The check of files that two students have in common.
 pub const SAME_FILES: &str = "same files";
 
+impl Grade {
+    /// The sections of the handout that speak against it, each once.
+    pub fn sections(&self) -> Vec<&'static str> {
+        let faults = self.findings.iter().filter(|finding| finding.is_fault());
+        each_once(faults.filter_map(|finding| finding.section))
+    }
+
+    /// The checks with remarks, each once.
+    pub fn remarks(&self) -> Vec<&'static str> {
+        let is_remark = |f: &&Finding| !f.passed && f.weight == Weight::Remark;
+        each_once(self.findings.iter().filter(is_remark).map(|finding| finding.check))
+    }
+
+    /// What was found wrong by running a section of the code itself.
+    pub fn wrong_sections(&self) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(|finding| finding.is_section() && finding.is_fault())
+    }
+}
+
+fn each_once(words: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    let mut once = Vec::new();
+    for word in words {
+        if !once.contains(&word) {
+            once.push(word);
+        }
+    }
+    once
+}
+
 impl Finding {
+    /// Whether it is about a whole section of the handout, whose code was run by itself.
+    pub fn is_section(&self) -> bool {
+        self.section == Some(self.check)
+    }
+
     /// Whether it speaks against the submission.
     pub fn is_fault(&self) -> bool {
         !self.passed && self.weight != Weight::Remark

@@ -22,7 +22,7 @@ pub fn section(plan: &Plan) -> PageSection {
     row("cores there", &cores.to_string());
     row("system", &format!("{} {}", std::env::consts::OS, std::env::consts::ARCH));
     row("compiler", env!("RUSTC_VERSION"));
-    row("built", if cfg!(debug_assertions) { "with debug assertions" } else { "optimised" });
+    row("built", if cfg!(debug_assertions) { "with debug assertions" } else { "optimized" });
     row("program", concat!("photon-mapping ", env!("CARGO_PKG_VERSION")));
     row("this report", &format!("`photon-mapping report{}`", plan.options));
     for (number, size) in plan.sizes.iter().enumerate() {

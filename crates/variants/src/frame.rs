@@ -118,8 +118,8 @@ impl Frame {
         if self.lengths != base.lengths {
             changes.push(
                 match self.lengths {
-                    Lengths::Unit => "t and b normalised",
-                    Lengths::AsWritten => "t and b to the letter of the handout, not normalised",
+                    Lengths::Unit => "t and b normalized",
+                    Lengths::AsWritten => "t and b to the letter of the handout, not normalized",
                 }
                 .to_owned(),
             );
@@ -129,7 +129,10 @@ impl Frame {
         }
         if self.threshold != base.threshold {
             let (below, above) = around(normals, self.axis, self.threshold);
-            changes.push(format!("fallback threshold between {below} and {above}"));
+            changes.push(format!(
+                "the fallback axis in equation (7) at absolute dot products of {above} or more \
+                 (not at {below})"
+            ));
         }
         let other_fallback = if self.axis == base.axis { base.fallback } else { Vec3::X };
         if self.fallback != other_fallback {

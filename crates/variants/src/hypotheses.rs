@@ -61,7 +61,7 @@ pub fn fair_readings() -> Vec<Hypothesis> {
         misreading: None,
         variation: Variation { reading, ..Variation::default() },
     };
-    let mut all = vec![fair("t and b normalised".to_owned(), Reading::REFERENCE)];
+    let mut all = vec![fair("t and b normalized".to_owned(), Reading::REFERENCE)];
     // One threshold between each two of |n.x| that the scene's normals have: 0, 0.29, 0.30, 0.301,
     // 0.9536, 0.955, 0.96 and 1.
     for (axis, name) in [(Vec3::Y, "(0, 1, 0)"), (Vec3::Z, "(0, 0, 1)")] {

@@ -13,7 +13,7 @@ use variants::section::Section;
 /// So many directions of every law are drawn, to hold the submission's against.
 const DRAWN: u64 = 20_000;
 
-const REJECT: &str = "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.";
+const REJECT: &str = "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalize.";
 
 /// A law that directions may follow: its name, if it is a known misreading, what it is, and one
 /// draw of it.
@@ -165,7 +165,7 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
             "{other} of {total} directions are not unit vectors: their lengths go from {least:.2} \
              to {most:.2}"
         );
-        let advice = "Normalise the vector before you hand it to SetRayDirection, which does not.";
+        let advice = "Normalize the vector before you hand it to SetRayDirection, which does not.";
         verdict.fault(Some("not-normalised"), found, advice);
     }
     true

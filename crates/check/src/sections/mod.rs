@@ -132,7 +132,7 @@ fn where_of(step: Step) -> String {
         Step::Black => "a wall with P_r = 0".to_owned(),
         Step::White => "a wall with P_r = 1".to_owned(),
         Step::Colour(index) => {
-            format!("a coloured wall with P_r = {}", COLOURS[index].max_element())
+            format!("a colored wall with P_r = {}", COLOURS[index].max_element())
         }
         Step::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
         Step::Threshold(_) => "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned(),

@@ -54,7 +54,7 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
                 let (name, advice) = if is_along_x {
                     (Some("nan-frame"), NAN_WALL)
                 } else {
-                    (None, "Look for a vector of length 0 that is normalised.")
+                    (None, "Look for a vector of length 0 that is normalized.")
                 };
                 verdict.fault(name, found, advice);
                 return;
@@ -118,8 +118,8 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
         ),
         Some(Frame::HalfAsWritten) => (
             Some("half-normalised"),
-            "b is normalised, and t is not",
-            "Normalise both t and b, or neither: one of them alone squeezes directions to one \
+            "b is normalized, and t is not",
+            "Normalize both t and b, or neither: one of them alone squeezes directions to one \
              side.",
         ),
         Some(Frame::OtherOrder) => {
@@ -131,7 +131,7 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
 }
 
 const NAN_WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1, \
-                        t is (0, 0, 0), and normalising it gives NaN: compare the absolute value \
+                        t is (0, 0, 0), and normalizing it gives NaN: compare the absolute value \
                         with your threshold.";
 const PARALLEL: &str = "Where the normal is close to parallel with (1, 0, 0), take another vector, \
                         such as (0, 1, 0), in equation (7).";
@@ -163,7 +163,7 @@ fn judge_fair(frames: &[(Vec3, Option<Frame>)], verdict: &mut Verdict) {
     if has(Frame::AsWritten) {
         verdict
             .readings
-            .push("t and b as equations (7) and (8) have them, not normalised".to_owned());
+            .push("t and b as equations (7) and (8) have them, not normalized".to_owned());
     }
 }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::FormatName;
+use super::files::{INDEX, made_by};
 use crate::error::{CliError, print_whole};
 use crate::gradebook;
 use crate::output::write;
@@ -15,7 +16,7 @@ use grading::gradescope;
 use grading::intake::HandedIn;
 use grading::intake::contents::same_contents;
 use grading::judge_list::Expectations;
-use grading::page::{Pages, index::index};
+use grading::page::{Pages, index::Index};
 use grading::submission::{Graded, MOST_RECORDS, Settings, grade_at_most, remark};
 use grading::text;
 use grading::twins::{Fingerprint, twins};
@@ -152,8 +153,11 @@ impl Class<'_> {
         };
         match (&self.folder, out) {
             (Some(folder), _) if self.format == FormatName::Html => {
-                let pages: Vec<_> = grades.into_iter().zip(self.files.iter().cloned()).collect();
-                write(&folder.join("index.html"), &index(&pages, best))
+                let pages = grades.into_iter().zip(self.files.iter().cloned()).collect();
+                let absent = self.students.absent();
+                let made_by = made_by(self.students.is_anonymous());
+                let index = Index { pages, absent, best, made_by };
+                write(&folder.join(INDEX), &index.page())
             }
             (Some(_), _) => Ok(()),
             (None, Some(path)) => write(path, &output),

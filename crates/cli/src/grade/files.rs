@@ -1,8 +1,13 @@
-//! What the file of each submission is called.
+//! The files of a class: what each is called, and what they say of the run that wrote them.
 
 use std::collections::HashSet;
+use std::fs;
 use std::path::Path;
 
+use crate::error::CliError;
+
+/// The page that leads to the others.
+pub const INDEX: &str = "index.html";
 /// The longest name of a file without number and extension, in bytes, of which systems take 255.
 const LONGEST_NAME: usize = 100;
 
@@ -18,6 +23,41 @@ pub fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> 
         names.find(|name| seen.insert(name.to_lowercase())).expect("there is always another number")
     };
     names.map(|name| unique(name) + "." + extension).collect()
+}
+
+/// Refuses a `folder` with files of `extension` that are none of `files`: a page of an earlier run
+/// would pass for one of this.
+///
+/// # Errors
+/// When there is such a file.
+pub fn refuse_others(folder: &Path, files: &[String], extension: &str) -> Result<(), CliError> {
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
+    let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+    let is_other = |name: &String| {
+        Path::new(name).extension().is_some_and(|its| its == extension)
+            && !files.contains(name)
+            && name != INDEX
+    };
+    match names.filter(is_other).min() {
+        Some(name) => Err(CliError::Argument(format!(
+            "--out: expected a folder without files of another run, found {}: remove them, or \
+             name another folder",
+            folder.join(name).display()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// The program, the day in UTC, and the command line unless it names who is to stay `anonymous`.
+pub fn made_by(is_anonymous: bool) -> String {
+    let day = jiff::Timestamp::now().strftime("%Y-%m-%d");
+    let words: Vec<String> =
+        std::env::args().skip(1).map(|word| word.replace(['\n', '\r'], " ")).collect();
+    let command = match is_anonymous {
+        true => String::new(),
+        false => format!(": photon-mapping {}", words.join(" ")),
+    };
+    format!("photon-mapping {}, {day}{command}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The last part of `name` as the name of a file.

@@ -17,7 +17,7 @@ use super::output::{self, protect};
 use super::values;
 use class::Class;
 pub use class::json;
-pub use files::file_names;
+pub use files::{INDEX, file_names, made_by, refuse_others};
 use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
 use grading::page::Pages;
@@ -160,18 +160,22 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     }
     let students = arguments.gradebook.class(&there, &mut handed_in)?;
     let folder = folder(arguments, handed_in.len() + missing.len())?;
+    let files = file_names(
+        handed_in.iter().map(|one| one.submission.name.as_str()),
+        arguments.format.of_each().unwrap_or_default(),
+    );
+    if let (Some(folder), Some(extension)) = (&folder, arguments.format.of_each()) {
+        refuse_others(folder, &files, extension)?;
+    }
     let expectations = expectations(arguments.max_bounces);
     let class = Class {
         format: arguments.format,
         settings: &settings,
         expectations: &expectations,
-        pages: Pages::new(&expectations, &settings.policy),
+        pages: Pages::new(&expectations, &settings.policy, folder.is_some()),
         folder,
         students,
-        files: file_names(
-            handed_in.iter().map(|one| one.submission.name.as_str()),
-            arguments.format.of_each().unwrap_or_default(),
-        ),
+        files,
         bar: progress(handed_in.len()),
     };
     let graded = class.grade(&handed_in);

@@ -21,6 +21,8 @@ const PIXELS_OF_A_DOT: f64 = 2.0;
 /// one.
 const NONE: f64 = 2.5;
 const FULL: f64 = 6.0;
+/// What the handout paints dots with.
+const DOT: Rgb<u8> = Rgb([255, 0, 0]);
 const MORE: [f64; 3] = [255.0, 140.0, 0.0];
 const FEWER: [f64; 3] = [40.0, 140.0, 255.0];
 
@@ -71,6 +73,23 @@ pub fn difference(submission: &RgbImage, reference: &RgbImage, plain: &RgbImage)
         *pixel = Rgb(colour.map(|channel| (grey + share * (channel - grey)) as u8));
     }
     picture
+}
+
+/// `picture` with every dot over `plain` a pixel larger to all sides.
+pub fn enlarged(picture: &RgbImage, plain: &RgbImage) -> RgbImage {
+    let mut larger = picture.clone();
+    let (width, height) = picture.dimensions();
+    for (x, y, pixel) in picture.enumerate_pixels() {
+        if pixel == plain.get_pixel(x, y) {
+            continue;
+        }
+        for y in y.saturating_sub(1)..=(y + 1).min(height - 1) {
+            for x in x.saturating_sub(1)..=(x + 1).min(width - 1) {
+                larger.put_pixel(x, y, DOT);
+            }
+        }
+    }
+    larger
 }
 
 /// How strong the colour is of what is `away` standard deviations from its expectation, from 0 to

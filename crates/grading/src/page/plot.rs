@@ -7,6 +7,7 @@ use plotters::prelude::*;
 use super::pictures::strength;
 use super::profile::Axis;
 use crate::places::Facet;
+use crate::text::rounded;
 
 const SIZE: (u32, u32) = (320, 150);
 const FOUND: RGBColor = RGBColor(40, 100, 170);
@@ -64,7 +65,10 @@ impl Histogram<'_> {
             .axis_desc_style(("sans-serif", 12))
             .light_line_style(WHITE)
             .bold_line_style(RGBColor(225, 225, 225))
-            .y_label_formatter(&|count| format!("{count:.0}"))
+            .x_label_formatter(&tick)
+            .y_label_formatter(&|count| {
+                if count.fract() == 0.0 { tick(count) } else { String::new() }
+            })
             .draw()?;
         let step = (high - low) / self.found.len() as f64;
         let left = |bin: usize| low + step * bin as f64;
@@ -92,6 +96,12 @@ impl Histogram<'_> {
         chart.draw_series(LineSeries::new(steps(self.expected), EXPECTED.stroke_width(1)))?;
         area.present()
     }
+}
+
+/// The label of the place `at` on an axis: with no more decimals than it needs.
+fn tick(at: &f64) -> String {
+    // Never "-0".
+    format!("{}", (at * 100.0).round() / 100.0 + 0.0)
 }
 
 /// The cells of `facet`, the world's x or y to the right and y or z up: in each, how many times as
@@ -128,8 +138,8 @@ pub fn map(
                     width=(format!("{cell_width:.1}")) height=(format!("{cell_height:.1}"))
                     fill=(if away > 0.0 { "#e69f00" } else { "#3f8fe0" })
                     fill-opacity=(format!("{:.2}", strength(away))) stroke="#999" {
-                    title { (format!("{found:.0} found, {expected:.1} expected ({away:+.1} \
-                                      standard deviations)")) }
+                    title { (format!("{} found, {expected:.1} expected ({away:+.1} \
+                                      standard deviations)", rounded(found))) }
                 }
                 text x=(format!("{:.1}", x + cell_width / 2.0))
                     y=(format!("{:.1}", y + cell_height / 2.0 + 4.0)) {

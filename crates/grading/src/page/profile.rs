@@ -61,8 +61,6 @@ impl Axis {
 pub struct Profile {
     /// By facet and axis.
     pub along: Vec<[[f64; BINS]; 2]>,
-    /// By facet.
-    pub facets: Vec<f64>,
     /// By place.
     pub counts: Counts,
     /// By bounce, the first that is stored being the first.
@@ -76,7 +74,6 @@ impl Profile {
         let facets = places.facets.len();
         Self {
             along: vec![[[0.0; BINS]; 2]; facets],
-            facets: vec![0.0; facets],
             counts: Counts::new(places),
             bounces: [0.0; LAST_BOUNCE],
             cosines: [0.0; BINS],
@@ -93,8 +90,7 @@ impl Profile {
             profile.counts.add(place);
             let bounce = usize::from(record.bounce.saturating_sub(first_bounce));
             profile.bounces[bounce.min(LAST_BOUNCE - 1)] += 1.0;
-            let (Place::Cell { facet, .. } | Place::Corner { facet }) = place else { continue };
-            profile.facets[facet] += 1.0;
+            let Place::Cell { facet, .. } = place else { continue };
             if let Some(direction) = record.to_light.as_dvec3().try_normalize() {
                 let cosine = direction.dot(places.facets[facet].normal).max(0.0);
                 profile.cosines[((cosine * BINS as f64) as usize).min(BINS - 1)] += 1.0;
@@ -136,7 +132,6 @@ impl Profile {
             .iter_mut()
             .chain([corner, footprint, off_surface, not_finite])
             .chain(self.along.iter_mut().flatten().flatten())
-            .chain(&mut self.facets)
             .chain(&mut self.bounces)
             .chain(&mut self.cosines)
     }

@@ -108,8 +108,8 @@ pub fn find_dots<'a>(
         remarks.push(remark("camera", "rays through the upper left corners of pixels", found));
     }
     if let Some((check, found)) = best.remark {
-        let expected = if check == "dot colour" {
-            "dots add (1, 0, 0) to the colour"
+        let expected = if check == "dot color" {
+            "dots add (1, 0, 0) to the color"
         } else {
             "the framework's direct light"
         };
@@ -180,10 +180,10 @@ fn take_apart(pixels: &[[u8; 3]], view: &View) -> Attempt {
                 let names = ["red", "green", "blue"];
                 let names = names.iter().zip(channels).filter(|(_, is_raised)| *is_raised);
                 let names: Vec<_> = names.map(|(name, _)| *name).collect();
-                Some(("dot colour", format!("dots that add some {}", names.join(" and "))))
+                Some(("dot color", format!("dots that add some {}", names.join(" and "))))
             }
             Style::Replaced([r, g, b]) => {
-                Some(("dot colour", format!("dots that replace the colour by ({r}, {g}, {b})")))
+                Some(("dot color", format!("dots that replace the color by ({r}, {g}, {b})")))
             }
         };
         Attempt { red, astray, remark }
@@ -252,7 +252,7 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     surface().filter(is_full).for_each(|at| red[at] = true);
     let is_astray = |at: &usize| is_off(*at, 1) || is_off(*at, 2) || (!red[*at] && is_off(*at, 0));
     let astray = surface().filter(is_astray).count();
-    let found = "all colours changed by a curve, such as a gamma or a brightness".to_owned();
+    let found = "all colors changed by a curve, such as a gamma or a brightness".to_owned();
     Some(Attempt { red, astray, remark: Some(("direct light", found)) })
 }
 
@@ -286,7 +286,7 @@ fn reason(pixels: &[[u8; 3]], view: &View, astray: f64) -> String {
     if correlation > SAME_VIEW {
         format!(
             "it shows the handout's view, but {:.1} % of its pixels are neither direct light nor a \
-             dot, as after JPEG compression, resizing, a change of colours or a screenshot: \
+             dot, as after JPEG compression, resizing, a change of colors or a screenshot: \
              {WANTED}",
             100.0 * astray
         )

@@ -10,6 +10,7 @@ use crate::naming::Explanation;
 use crate::statistics::{
     Fit, Law, Residual, chi_squared_tail, corrected, fit, grouped, normal_tails, towards,
 };
+use crate::text::rounded;
 use crate::verdict::{Finding, Weight};
 
 use super::signature::PictureSignature;
@@ -203,7 +204,11 @@ impl Case<'_> {
             tests.push(Test {
                 check: "number of dots",
                 p_value: fit(&[found], &whole.law(LEEWAY), Some(1.0)).p_value,
-                found: format!("{found:.0} red pixels; expected {:.0}", whole.mean[0]),
+                found: format!(
+                    "{} red pixels; expected {}",
+                    rounded(found),
+                    rounded(whole.mean[0])
+                ),
             });
         }
 
@@ -246,7 +251,7 @@ impl Case<'_> {
             // As many tests as there are misreadings, of one side each.
             p_value: corrected(0.5 * normal_tails(farthest), expectations.misreadings.len()),
             // Whose way it is says little: the one that explains all is named for the whole.
-            found: format!("{farthest:.1} standard deviations on the way to one of them"),
+            found: format!("dots lean {farthest:.1} standard deviations towards one of them"),
         });
 
         let count = tests.len();

@@ -76,7 +76,7 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     let pixels = pixels_alone(bytes);
     let decoder = PngDecoder::with_limits(Cursor::new(&pixels), limits).map_err(broken)?;
     if !decoder.color_type().has_color() {
-        return Err(format!("it is grey, and dots are red: {WANTED}"));
+        return Err(format!("it is gray, and dots are red: {WANTED}"));
     }
     let picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     let rgb = picture.to_rgb8();

@@ -1,12 +1,14 @@
 //! What is said of a picture.
 
 use super::expected::Expected;
+use crate::text::{difference, rounded};
 use crate::verdict::{Finding, Weight};
+use compare::numbers::thousands;
 use photon_mapping::assignment8::PHOTON_COUNT;
 use variants::section::Section;
 
-/// The dots of a picture are too few for what the handout asks for when they fit fewer photons sent
-/// out than this.
+/// The dots of a picture are too few for what the handout asks for when they fit fewer photons
+/// emitted than this.
 pub(super) const LEAST_EMITTED: f64 = 5000.0;
 
 /// By which part of itself a number of photons is not known from a picture.
@@ -36,13 +38,7 @@ pub(super) fn farthest(
         |at: usize| (counts[at] - expected.mean[at]) / expected.covariance[at][at].sqrt().max(1.0);
     let farthest = (0..counts.len()).max_by(|a, b| z(*a).abs().total_cmp(&z(*b).abs()));
     let at = farthest.unwrap_or_default();
-    format!(
-        "largest difference: {}, {:.0} red pixels; expected {:.0} ({:+.1} standard deviations)",
-        name(at),
-        counts[at],
-        expected.mean[at],
-        z(at)
-    )
+    difference(&name(at), counts[at], "red pixels", expected.mean[at], z(at))
 }
 
 fn storage(
@@ -72,9 +68,13 @@ pub(super) fn no_dots(found: f64, elsewhere: f64) -> Finding {
         "dots",
         "a red dot for every photon stored that is in sight",
         if by_edges {
-            format!("{found:.0} red pixels on the surfaces, and {elsewhere:.0} along their edges")
+            format!(
+                "{} red pixels on the surfaces, and {} along their edges",
+                rounded(found),
+                rounded(elsewhere)
+            )
         } else {
-            format!("{found:.0} red pixels on the surfaces")
+            format!("{} red pixels on the surfaces", rounded(found))
         },
         false,
         Weight::Fault,
@@ -93,7 +93,7 @@ pub(super) fn saturated(emitted: f64) -> Finding {
     storage(
         "dots",
         "pixels without a dot, to tell where dots are",
-        format!("with {emitted:.0} photons emitted nearly all is red, right or wrong"),
+        format!("with {} photons emitted nearly all is red, right or wrong", rounded(emitted)),
         false,
         Weight::Remark,
         "A picture with 1,000,000 photons emitted tells more.",
@@ -112,7 +112,7 @@ pub(super) fn all_red() -> Finding {
             false,
             Weight::Grave,
             "A photon whose position is not a number is near every point. Look for a vector of \
-             length 0 that is normalised: t where the normal is (-1, 0, 0), for which the absolute \
+             length 0 that is normalized: t where the normal is (-1, 0, 0), for which the absolute \
              value of the dot product is to be compared. If all is well there, PHOTON_DOT_RADIUS \
              may be far larger than 0.003.",
         )
@@ -123,12 +123,12 @@ pub(super) fn all_red() -> Finding {
 pub(super) fn enough(found: f64, fitted: f64) -> Finding {
     storage(
         "enough photons",
-        &format!("the dots of at least {LEAST_EMITTED} photons emitted"),
-        format!("{found:.0} red pixels, of about {fitted:.0} photons emitted"),
+        &format!("the dots of at least {} photons emitted", rounded(LEAST_EMITTED)),
+        format!("{} red pixels, of about {} photons emitted", rounded(found), rounded(fitted)),
         fitted >= LEAST_EMITTED,
         Weight::Fault,
-        "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it sent \
-         out fewer, grade with --emitted.",
+        "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
+         emitted fewer, grade with --emitted.",
     )
 }
 
@@ -138,8 +138,11 @@ pub(super) fn number_under(id: &str, emitted: f64) -> Finding {
     let close = (emitted / PHOTON_COUNT as f64 - 1.0).abs() < NUMBER_LEEWAY;
     storage(
         "photons emitted",
-        &format!("{PHOTON_COUNT}, as the framework emits"),
-        format!("'{id}' explains the dots of about {:.0} photons", (emitted / 1e3).round() * 1e3),
+        &format!("{}, as the framework emits", thousands(PHOTON_COUNT)),
+        format!(
+            "'{id}' explains the dots of about {} photons",
+            rounded((emitted / 1e3).round() * 1e3)
+        ),
         close,
         Weight::Remark,
         "If yours emitted another number than this, there is another mistake, too: grade with \

@@ -55,7 +55,7 @@ pub fn vertex(line: &ObjLine) -> Result<DVec3, String> {
     let more: Vec<&str> = words.collect();
     if more.iter().any(|word| word.parse::<f64>().is_err()) || more.len() > 4 {
         let found = more.join(" ");
-        return Err(format!("expected x, y, z, a weight and a colour after 'v', found '{found}'"));
+        return Err(format!("expected x, y, z, a weight and a color after 'v', found '{found}'"));
     }
     // Three numbers more are a colour; the first of one or four is a weight.
     match more.as_slice() {

@@ -167,9 +167,9 @@ pub(super) fn transformation() -> Vec<Entry> {
         Entry::new(
             "half-normalised",
             section,
-            "Normalise both t and b, or neither: one of them alone squeezes directions to one \
+            "Normalize both t and b, or neither: one of them alone squeezes directions to one \
              side.",
-            [("b is normalised, and t is not", of_frame(Frame::HalfNormalised))],
+            [("b is normalized, and t is not", of_frame(Frame::HalfNormalised))],
         ),
         Entry::new(
             "transposed-frame",

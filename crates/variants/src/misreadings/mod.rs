@@ -132,8 +132,10 @@ pub fn names() -> Vec<&'static str> {
 
 /// All misreadings as a table of the documentation.
 pub fn table() -> String {
-    let mut text = "# The misreadings that have a name\n\nMade by the example `misreadings` of \
-        `crates/variants`, from its table.\n"
+    let mut text = "# The misreadings that have a name\n\n\
+        Each picture shows the dots of the misreading, and those of the reference to its right.\n\
+        `photon-mapping explore --misreading NAME` shows both in 3-D.\n\n\
+        This page is the output of the example `misreadings` of `crates/variants`.\n"
         .to_owned();
     let mut all: Vec<_> = by_marks().into_iter().chain(misreadings()).collect();
     all.retain(|way| {
@@ -142,13 +144,19 @@ pub fn table() -> String {
     });
     for section in Section::ALL {
         text += &format!(
-            "\n## {}\n\n| name | what is done | what to look at |\n|---|---|---|\n",
+            "\n## {}\n\n| name | what is done, and what to look at | dots |\n|---|---|---|\n",
             section.title()
         );
-        for Hypothesis { id, title, misreading, .. } in &all {
-            if let Some(Misreading { advice, .. }) = misreading.filter(|it| it.section == section) {
-                text += &format!("| `{id}` | {title} | {advice} |\n");
-            }
+        let is_of_section =
+            |way: &&Hypothesis| way.misreading.is_some_and(|it| it.section == section);
+        let mut ways: Vec<&Hypothesis> = all.iter().filter(is_of_section).collect();
+        ways.sort_by_key(|way| all.iter().position(|other| other.id == way.id));
+        for same in ways.chunk_by(|a, b| a.id == b.id) {
+            let Hypothesis { id, misreading, .. } = same[0];
+            let titles: Vec<&str> = same.iter().map(|way| way.title.as_str()).collect();
+            let (titles, advice) = (titles.join(", or "), misreading.map_or("", |it| it.advice));
+            let picture = format!("![{id}](misreadings/{id}.png)");
+            text += &format!("| `{id}` | {titles}.<br>{advice} | {picture} |\n");
         }
     }
     text

@@ -13,7 +13,7 @@ pub(super) fn emission() -> Vec<Entry> {
         Entry::new(
             "cube-directions",
             section,
-            "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalise.",
+            "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before you normalize.",
             [
                 (
                     "directions from the light come from the whole cube, not the sphere",
@@ -44,7 +44,7 @@ pub(super) fn emission() -> Vec<Entry> {
             "polar-directions",
             section,
             "An even polar angle crowds directions at the poles. Draw x, y and z in [-1, 1), again \
-             while x^2 + y^2 + z^2 > 1, and normalise.",
+             while x^2 + y^2 + z^2 > 1, and normalize.",
             [
                 (
                     "the polar angle from the light is even, about the z axis",
