@@ -239,7 +239,7 @@ impl<'a> Pages<'a> {
         let signatures = &self.expectations.signatures;
         let (reading, signature) = match grade.verdict {
             Verdict::Correct => (judgement.reading.variation, &judgement.signature),
-            _ => (Variation::default(), &signatures.fair[0]),
+            _ => (Variation::default(), &signatures.fair[0].signature),
         };
         let emitted = judgement.emitted;
         let first = list.records.iter().map(|record| record.bounce).min().unwrap_or_default();
@@ -248,7 +248,7 @@ impl<'a> Pages<'a> {
         let misread = judgement.explanation.as_ref();
         let misread = misread.map(|explanation| {
             self.profile(explanation.hypothesis.variation, PHOTONS_FOR_MISREADINGS)
-                .scaled(explanation.fit.emitted)
+                .scaled(explanation.emitted)
         });
         let scaled = |numbers: &[f64]| numbers.iter().map(|n| n * emitted).collect::<Vec<f64>>();
         let (cells, variance) = (scaled(&signature.cells), scaled(&signature.variance));
