@@ -8,10 +8,11 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
+use grading::expected::Groups;
 use grading::picture::dot_size::DotSize;
 use grading::picture::dots::{Dots, find_dots};
 use grading::picture::expectations::PictureExpectations;
-use grading::picture::expected::Expected;
+use grading::picture::expected::expect;
 use grading::picture::judge::{PictureJudgement, judge_dots};
 use grading::picture::reading::read_picture;
 use grading::picture::signature::measure;
@@ -99,8 +100,10 @@ fn what_is_expected_is_what_pictures_show() {
     let all = expectations();
     let coverage = vec![1.0; all.view.facets.len()];
     for (emitted, pictures) in [(20_000, 400), (MILLION, 12)] {
-        let expected = Expected::new(&all.view, &all.signatures.fair[0], emitted as f64, &coverage);
-        let everything = expected.grouped(&vec![0; all.view.cells.len()], 1);
+        let (view, signature) = (&all.view, &all.signatures.fair[0].signature);
+        let cells = view.cells.len();
+        let expected = expect(view, signature, emitted as f64, &coverage, &vec![0.0; cells]);
+        let everything = expected.grouped(&Groups::whole(cells));
         let totals: Vec<f64> = (0..pictures)
             .map(|seed| {
                 let red = simulate(Variation::default(), 900 + seed, emitted, 0.0);
@@ -124,7 +127,7 @@ fn what_is_expected_is_what_pictures_show() {
 #[test]
 fn the_signatures_that_are_kept_are_measured() {
     let all = expectations();
-    let kept = &all.signatures.fair[0];
+    let kept = &all.signatures.fair[0].signature;
     let again = measure(&fair_readings()[0], &all.view, 2 * MILLION, MAX_PHOTON_BOUNCES);
     assert_eq!(kept.red.len(), all.view.patches.len());
     for facet in 0..all.view.facets.len() {

@@ -6,10 +6,10 @@
 #[path = "common/shorten.rs"]
 mod shorten;
 
-use grading::picture::signature::Kept;
+use grading::picture::signature::PictureSignature;
 use grading::picture::view::View;
 use grading::places::Places;
-use grading::signature::Effort;
+use grading::signature::{Effort, Kept};
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use shorten::write_short;
 
@@ -18,8 +18,9 @@ const EFFORT: Effort = Effort { main: 60_000_000, fair: 12_000_000, ..Effort::FU
 
 fn main() {
     let of_all = std::env::args().nth(1).is_some();
-    let mut kept = if of_all { Kept::default() } else { Kept::of_assignment8() };
+    let mut kept: Kept<PictureSignature> =
+        if of_all { Kept::default() } else { Kept::of_pictures() };
     let places = Places::new(&create_scene());
-    kept.complete(&places, &View::new(&places), MAX_PHOTON_BOUNCES, EFFORT);
+    kept.complete_pictures(&places, &View::new(&places), MAX_PHOTON_BOUNCES, EFFORT);
     write_short("crates/grading/golden/signatures-of-pictures.json", &kept);
 }

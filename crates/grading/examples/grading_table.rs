@@ -6,11 +6,11 @@
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};
+use grading::expected::fit_size;
 use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::observe;
 use grading::places::{Place, Places};
 use grading::signature::{Effort, Signatures};
-use grading::statistics::Residual;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8::create_scene;
@@ -317,16 +317,22 @@ fn limit(id: &str, content: Content, expectations: &Expectations) -> Option<f64>
         Content::Everything => return None,
     };
     let signatures = &expectations.signatures;
-    let of_id = misreadings().into_iter().zip(&signatures.misreadings);
-    let of_id: Vec<_> = of_id.filter(|(hypothesis, _)| hypothesis.id == id).collect();
+    let of_id: Vec<_> =
+        signatures.misreadings.iter().filter(|known| known.hypothesis.id == id).collect();
+    let none = vec![0.0; expectations.places.cells];
     let powers: Vec<f64> = of_id
         .iter()
-        .map(|(_, signature)| {
+        .map(|known| {
             let counts: Vec<f64> =
-                signature.cells.iter().map(|mean| mean * EMITTED as f64).collect();
+                known.signature.cells.iter().map(|mean| mean * EMITTED as f64).collect();
             let fair = signatures.fair.iter().map(|fair| {
-                let law = fair.law_of_cells(&signatures.correlation, 0.0);
-                let apart = Residual::new(&counts, &law, emitted).towards(&signature.cells).1;
+                let of = |size| fair.signature.of_cells(&signatures.correlation, &none, size);
+                let size = emitted.unwrap_or_else(|| fit_size(&counts, |n| of(n).mean, of));
+                let law = of(size).law(emitted.is_none());
+                let apart: f64 = law
+                    .towards(&counts, [counts.clone()].into_iter())
+                    .map(|(_, apart)| apart)
+                    .sum();
                 0.5 * erfc((quantile(SIGNIFICANCE) - apart) / std::f64::consts::SQRT_2)
             });
             fair.fold(1.0, f64::min)

@@ -1,11 +1,11 @@
 //! What the bounces of a list say, where it has them.
 
-use super::judge_list::{Expectations, SIGNIFICANCE};
+use super::judge_list::Expectations;
+use super::limits::{LEAST_DEVIATIONS, SIGNIFICANCE};
 use super::observation::{BOUNCES, Counts, Observation};
 use super::places::Places;
 use super::signature::{Signature, classes};
-use super::statistics::{corrected, fit, grouped};
-use super::trial::{LEEWAY, joined};
+use super::statistics::corrected;
 use super::verdict::{Finding, Weight};
 use variants::section::Section;
 
@@ -24,6 +24,7 @@ pub fn bounce_findings(
     let places = &expectations.places;
     let max_bounces = expectations.signatures.max_bounces;
     let allowed = usize::try_from(max_bounces).unwrap_or(0);
+    let is_free = emitted.is_none();
     let size = emitted.unwrap_or_else(|| {
         observation.counts.on_surfaces() / signature.classes.iter().sum::<f64>()
     });
@@ -56,10 +57,9 @@ pub fn bounce_findings(
     }
     findings.extend(longest_path([first, last], allowed, size, signature));
     // Where a fair reading leaves photons, it leaves them after every bounce.
-    let fair = expectations.signatures.fair.iter();
-    let p_value = fair
-        .map(|signature| of_each_bounce(by_bounce, allowed, size, emitted, signature, places))
-        .fold(0.0, f64::max);
+    let fair = expectations.signatures.fair.iter().map(|known| &known.signature);
+    let p_values = fair.map(|it| of_each_bounce(by_bounce, max_bounces, size, is_free, it, places));
+    let p_value = p_values.fold(0.0, f64::max);
     let passed = p_value >= SIGNIFICANCE;
     // A column that counts otherwise is no fault: positions alone are asked for.
     let counts_hits = first <= LAST_FIRST_BOUNCE;
@@ -131,26 +131,27 @@ fn longest_path(
     })
 }
 
-/// The chance that the photons of each bounce lie where they do by `signature`.
+/// The chance that the photons of each bounce lie where they do by `signature`, of `emitted`
+/// photons or, if that is free, about as many.
 pub(super) fn of_each_bounce(
     by_bounce: &[Counts],
-    allowed: usize,
-    size: f64,
-    emitted: Option<f64>,
+    max_bounces: i32,
+    emitted: f64,
+    is_free: bool,
     signature: &Signature,
     places: &Places,
 ) -> f64 {
     let mut smallest = 1.0_f64;
     let mut tests = 0;
+    let allowed = usize::try_from(max_bounces).unwrap_or(0);
     for (bounce, counts) in by_bounce.iter().enumerate().take(allowed) {
-        let counts = classes(counts, places);
-        let law = signature.law_of_bounce(bounce, LEEWAY);
-        let (groups, count) = joined(&law.mean, size);
-        if count < 2 {
+        let expected = signature.of_bounce(bounce, emitted);
+        let groups = expected.joined(&vec![0; expected.mean.len()], LEAST_DEVIATIONS);
+        if groups.count < 2 {
             continue;
         }
-        let fit = fit(&grouped(&counts, &groups, count), &law.grouped(&groups, count), emitted);
-        smallest = smallest.min(fit.p_value);
+        let law = expected.grouped(&groups).law(is_free);
+        smallest = smallest.min(law.fit(&groups.sums(&classes(counts, places))).p_value);
         tests += 1;
     }
     corrected(smallest, tests.max(1))

@@ -3,10 +3,8 @@
 use super::facts::straight_from_the_light;
 use super::judge_list::Expectations;
 use super::observation::Observation;
-use super::signature::{Signature, classes};
-use super::statistics::towards;
+use super::signature::{Signature, Signatures, classes};
 use super::text::rounded;
-use super::trial::LEEWAY;
 use super::verdict::{Finding, Weight};
 use variants::variation::{Emission, Variation};
 
@@ -23,27 +21,21 @@ const FEWEST: f64 = 50.0;
 /// boxes, say, than by a bounce.
 pub fn is_ruled_out(observation: &Observation, emitted: f64, expectations: &Expectations) -> bool {
     let Some(to_light) = observation.to_light else { return false };
-    let (reference, Some(stored)) = (&expectations.signatures.fair[0], with_direct(expectations))
-    else {
-        return false;
-    };
+    let Some(stored) = expectations.with_direct() else { return false };
+    let reference = expectations.reference();
     let direct = stored.classes.iter().zip(&reference.classes).map(|(all, other)| all - other);
     let direct: Vec<f64> = direct.map(|mean| mean.max(0.0)).collect();
     let part = to_light.to_the_light as f64 / direct.iter().sum::<f64>();
-    let law = reference.law_of_classes(LEEWAY);
     // The number is left open: a list may be short of others.
-    let deviations = |counts: &[f64]| towards(counts, &law, &stored.classes, None);
-    let expected =
-        law.mean.iter().zip(&direct).map(|(mean, direct)| emitted * mean + part * direct);
+    let deviations = |counts: &[f64]| {
+        let size = reference.fit_size(counts);
+        reference.towards(stored, counts, size, true)
+    };
+    let means = reference.classes.iter().zip(&direct);
+    let expected = means.map(|(mean, direct)| emitted * mean + part * direct);
     let expected = deviations(&expected.collect::<Vec<_>>());
     let found = deviations(&classes(&observation.counts, &expectations.places));
     expected > APART && found < 0.5 * expected
-}
-
-fn with_direct(expectations: &Expectations) -> Option<&Signature> {
-    let mut hypotheses = expectations.misreadings.iter();
-    let at = hypotheses.position(|hypothesis| hypothesis.id == "direct-stored")?;
-    expectations.signatures.misreadings.get(at)
 }
 
 /// The fault that a facet has more photons than any mistake leaves there that stores none straight
@@ -54,13 +46,11 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
         return None;
     }
     let places = &expectations.places;
-    let signatures = &expectations.signatures;
     let counts = classes(&observation.distinct, places);
     let all: f64 = counts.iter().sum();
     let share = |signature: &Signature, class: usize| {
         signature.classes[class] / signature.classes.iter().sum::<f64>()
     };
-    let misreadings = expectations.misreadings.iter().zip(&signatures.misreadings);
     // What gets below surfaces shows beneath the boxes.
     // Other ways to leave the light are told by the facets that they leave in the dark.
     let is_indirect = |variation: &Variation| {
@@ -68,10 +58,9 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
             && !variation.goes_below()
             && [Emission::Sphere, Emission::Cube].contains(&variation.emission)
     };
-    let indirect = misreadings
-        .filter(|(hypothesis, _)| is_indirect(&hypothesis.variation))
-        .map(|(_, signature)| signature);
-    let indirect: Vec<_> = signatures.fair.iter().chain(indirect).collect();
+    let Signatures { fair, misreadings, .. } = &expectations.signatures;
+    let indirect = misreadings.iter().filter(|it| is_indirect(&it.hypothesis.variation));
+    let indirect: Vec<_> = fair.iter().chain(indirect).map(|it| &it.signature).collect();
     (0..places.facets.len()).find_map(|class| {
         let most = indirect.iter().map(|signature| share(signature, class)).fold(0.0, f64::max);
         let is_plain = counts[class] > (PLAINLY * most * all).max(FEWEST);
@@ -79,8 +68,7 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
             weight: Weight::Grave,
             ..straight_from_the_light(
                 format!(
-                    "{} of {} lie on {}, where hardly any come but straight from the \
-                     light",
+                    "{} of {} lie on {}, where hardly any come but straight from the light",
                     rounded(counts[class]),
                     rounded(all),
                     places.class_name(class)
@@ -97,8 +85,8 @@ const LEFT_OF_DIRECT: f64 = 0.7;
 /// Whether every facet has as many photons as come to it straight from the light, where all on
 /// `class` do.
 fn has_all_direct(counts: &[f64], class: usize, expectations: &Expectations) -> bool {
-    let Some(stored) = with_direct(expectations) else { return false };
-    let reference = &expectations.signatures.fair[0];
+    let Some(stored) = expectations.with_direct() else { return false };
+    let reference = expectations.reference();
     let direct = |facet: usize| (stored.classes[facet] - reference.classes[facet]).max(0.0);
     let emitted = counts[class] / direct(class).max(1e-9);
     (0..expectations.places.facets.len()).all(|facet| {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::judge_list::SIGNIFICANCE;
+use super::limits::SIGNIFICANCE;
 use super::observation::{Observation, ToLight};
 use super::places::Places;
 use super::text::rounded;
@@ -165,18 +165,26 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     findings
 }
 
-/// Whether the list is long enough to be what the handout asks for.
-pub fn enough(observation: &Observation, emitted: Option<f64>, fitted: f64) -> Finding {
+/// Whether the list is long enough to be what the handout asks for. Only where it `is_fair`, it is
+/// told how many photons fit it.
+pub fn enough(
+    observation: &Observation,
+    emitted: Option<f64>,
+    fitted: f64,
+    is_fair: bool,
+) -> Finding {
     let passed = emitted.is_some() || fitted >= FEW_EMITTED;
     Finding {
         check: "enough photons",
         section: Some(Section::PhotonStorage.title()),
         expected: format!("the photons of at least {} emitted", rounded(FEW_EMITTED)),
-        found: format!(
-            "{} photons, of about {} emitted",
-            thousands(observation.records),
-            rounded(fitted)
-        ),
+        found: match (emitted, is_fair) {
+            (None, true) => {
+                let stored = thousands(observation.records);
+                format!("{stored} photons, of about {} emitted", rounded(fitted))
+            }
+            _ => format!("{} photons", thousands(observation.records)),
+        },
         p_value: None,
         passed,
         weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },

@@ -1,11 +1,25 @@
-//! Signatures as they are kept: each under what its hypothesis is called, [`Hypothesis::key`].
+//! What is known of hypotheses: signatures, each kept under what its hypothesis is called,
+//! [`Hypothesis::key`].
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::statistics::Matrix;
+use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis};
 use variants::pairs::{OTHER_ROULETTE, PAIR};
 use variants::reading::Reading;
+use variants::variation::Simulation;
 
+/// How many photons a thread traces at once.
+const PIECE: u64 = 1 << 16;
+/// How many pieces wait for each other, so that memory does not grow with the photons.
+const WAVE: usize = 256;
+/// The seed of the signatures. Submissions that follow our streams have another.
+const SEED: u64 = 0x9_2019;
 /// A bounce fewer shows so little that with fewer photons than this, chance would be most of what
 /// it seems to do.
 const WITH_FEWER_BOUNCES: u64 = 4_000_000;
@@ -23,7 +37,7 @@ pub struct Effort {
     pub slow_misreading: u64,
     /// For each that has no name: two misreadings at once, and other roulettes. With 0, none is
     /// looked for.
-    pub pair: u64,
+    pub unnamed: u64,
 }
 
 impl Effort {
@@ -33,7 +47,7 @@ impl Effort {
         fair: 30_000_000,
         misreading: 4_000_000,
         slow_misreading: 4_000_000,
-        pair: 4_000_000,
+        unnamed: 4_000_000,
     };
     /// For a limit of bounces of a course's own, in a few seconds.
     pub const QUICK: Self = Self {
@@ -41,11 +55,9 @@ impl Effort {
         fair: 2_000_000,
         misreading: 500_000,
         slow_misreading: 100_000,
-        pair: 0,
+        unnamed: 0,
     };
-}
 
-impl Effort {
     /// With how many photons `hypothesis` is measured.
     pub fn photons(&self, hypothesis: &Hypothesis) -> u64 {
         let reading = hypothesis.variation.reading;
@@ -54,7 +66,7 @@ impl Effort {
                 self.main
             }
             FAIR => self.fair,
-            PAIR | OTHER_ROULETTE => self.pair,
+            PAIR | OTHER_ROULETTE => self.unnamed,
             BOUNCE_OFF_BY_ONE => self.misreading.max(WITH_FEWER_BOUNCES),
             _ if hypothesis.variation.is_fast() => self.misreading,
             _ => self.slow_misreading,
@@ -62,16 +74,129 @@ impl Effort {
     }
 }
 
-/// Takes the signatures of `hypotheses`, in their order, out of `kept`; of those that have no name,
-/// none if none is kept.
-pub(crate) fn take<S>(kept: &mut BTreeMap<String, S>, hypotheses: &[Hypothesis]) -> Vec<S> {
-    let is_kept = hypotheses.first().is_some_and(|first| kept.contains_key(&first.key()));
-    if !is_kept && hypotheses.iter().all(|hypothesis| hypothesis.misreading.is_none()) {
-        return Vec::new();
+/// A hypothesis, and where it leaves photons.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known<S> {
+    /// The hypothesis.
+    pub hypothesis: Hypothesis,
+    /// What is measured of it.
+    pub signature: S,
+}
+
+/// All hypotheses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table<S> {
+    /// How often photons may bounce.
+    pub max_bounces: i32,
+    /// The fair readings, the reference's first.
+    pub fair: Vec<Known<S>>,
+    /// The misreadings that have a name.
+    pub misreadings: Vec<Known<S>>,
+    /// What has none; nothing where it is not looked for.
+    pub unnamed: Vec<Known<S>>,
+    /// How the numbers of photons in two cells go together under the reference: their correlation.
+    /// Pictures have none.
+    pub correlation: Matrix,
+}
+
+impl<S> Table<S> {
+    /// All that is not fair.
+    pub(crate) fn faults(&self) -> impl Iterator<Item = &Known<S>> {
+        self.misreadings.iter().chain(&self.unnamed)
     }
-    let signature = |hypothesis: &Hypothesis| {
-        let key = hypothesis.key();
-        kept.remove(&key).unwrap_or_else(|| panic!("no signature is kept for '{key}'"))
+}
+
+/// The fair readings, the misreadings, and what has no name.
+pub(crate) type Hypotheses = [Vec<Hypothesis>; 3];
+
+/// Signatures as they are kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Kept<S> {
+    /// See [`Table::correlation`].
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub correlation: Matrix,
+    /// By [`Hypothesis::key`].
+    pub of: BTreeMap<String, S>,
+}
+
+impl<S> Default for Kept<S> {
+    fn default() -> Self {
+        Self { correlation: Matrix::new(), of: BTreeMap::new() }
+    }
+}
+
+impl<S: Send> Kept<S> {
+    /// Measures with `measure` what is missing of `hypotheses`.
+    pub(crate) fn measure_missing(
+        &mut self,
+        hypotheses: &Hypotheses,
+        effort: Effort,
+        measure: impl Fn(&Hypothesis, u64) -> S + Sync,
+    ) {
+        let missing = |it: &&Hypothesis| effort.photons(it) > 0 && !self.of.contains_key(&it.key());
+        let missing: Vec<_> = hypotheses.iter().flatten().filter(missing).collect();
+        let measured: Vec<_> = (missing.into_par_iter())
+            .map(|it| (it.key(), measure(it, effort.photons(it))))
+            .collect();
+        self.of.extend(measured);
+    }
+
+    /// The table of `hypotheses`, of which no signature, or every one of each part, is kept.
+    pub(crate) fn table(mut self, max_bounces: i32, hypotheses: Hypotheses) -> Table<S> {
+        let [fair, misreadings, unnamed] = hypotheses.map(|part| {
+            let is_kept = part.iter().any(|hypothesis| self.of.contains_key(&hypothesis.key()));
+            let known = |hypothesis: Hypothesis| {
+                let key = hypothesis.key();
+                let signature = self.of.remove(&key);
+                let signature =
+                    signature.unwrap_or_else(|| panic!("no signature is kept for '{key}'"));
+                Known { hypothesis, signature }
+            };
+            if is_kept { part.into_iter().map(known).collect() } else { Vec::new() }
+        });
+        Table { max_bounces, fair, misreadings, unnamed, correlation: self.correlation }
+    }
+}
+
+/// Sums over paths, such as make a signature.
+pub(crate) trait Sums: Send + Sync {
+    /// Adds what one path stores.
+    fn add_path(&mut self, path: &[PhotonRecord]);
+    /// Adds the sums of other paths.
+    fn add(&mut self, other: &Self);
+}
+
+/// The sums over the paths of `emitted` photons under `hypothesis`, beginning with `none`.
+pub(crate) fn sum<S: Sums>(
+    hypothesis: &Hypothesis,
+    emitted: u64,
+    max_bounces: i32,
+    none: impl Fn() -> S + Sync,
+) -> S {
+    let simulation = Simulation::new(hypothesis.variation, SEED, emitted, max_bounces);
+    let piece = |photons: Range<u64>| {
+        let mut sums = none();
+        let records = simulation.trace(photons);
+        records.chunk_by(|a, b| a.photon == b.photon).for_each(|path| sums.add_path(path));
+        sums
     };
-    hypotheses.iter().map(signature).collect()
+    let starts: Vec<u64> = (0..emitted).step_by(PIECE as usize).collect();
+    let mut all = none();
+    for wave in starts.chunks(WAVE) {
+        let pieces: Vec<S> =
+            wave.par_iter().map(|start| piece(*start..emitted.min(start + PIECE))).collect();
+        // They are whole numbers: their order does not matter.
+        pieces.iter().for_each(|of_piece| all.add(of_piece));
+    }
+    all
+}
+
+/// Adds `others` to `sums`, one by one.
+pub(crate) fn add(sums: &mut [f64], others: &[f64]) {
+    sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
+}
+
+/// The same for matrices.
+pub(crate) fn add_matrix(sums: &mut Matrix, others: &Matrix) {
+    sums.iter_mut().zip(others).for_each(|(row, other)| add(row, other));
 }

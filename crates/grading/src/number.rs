@@ -7,13 +7,17 @@
 
 use std::f64::consts::PI;
 
+use super::limits::{LEAST_LIKELY_SLIP, SIGNIFICANCE};
+use super::list::OfList;
+use super::naming::Explanation;
 use super::text::rounded;
+use super::trial::{Trial, best_trial};
 use super::verdict::{Finding, Weight};
 use variants::section::Section;
 
 /// A constant by which an intensity may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slip {
+struct Slip {
     name: &'static str,
     factor: f64,
     /// The power of the number of photons that the intensity has, by which it is divided.
@@ -22,7 +26,7 @@ pub struct Slip {
 
 /// Those that belong to powers, fluxes and responses of light, and a light that was made brighter
 /// by hand. No other factor is below 1: it would excuse as many photons missing.
-pub const SLIPS: [Slip; 9] = [
+const SLIPS: [Slip; 9] = [
     Slip { name: "4 pi", factor: 4.0 * PI, power: 1.0 },
     Slip { name: "2 pi", factor: 2.0 * PI, power: 1.0 },
     Slip { name: "10", factor: 10.0, power: 1.0 },
@@ -40,56 +44,84 @@ const MOST_STORED: f64 = 1.0 / 3.0;
 
 impl Slip {
     /// How many photons were emitted, where the intensity has this factor and says `number`.
-    pub fn emitted(&self, number: f64) -> f64 {
+    fn emitted(&self, number: f64) -> f64 {
         (self.factor * number.powf(1.0 / self.power)).round()
     }
-}
 
-/// The remark that the intensity, which says `number`, is off by `slip`.
-pub fn slip_finding(slip: Slip, number: f64, p_value: f64) -> Finding {
-    Finding {
-        found: format!(
-            "the intensity says {}; without a factor of {} it would say {}, which the photons fit",
+    /// The remark that the intensity, which says `number`, is off by this.
+    fn finding(&self, number: f64, p_value: f64) -> Finding {
+        let without = rounded(self.emitted(number));
+        let found = format!(
+            "the intensity says {}; without a factor of {} it would say {without}, which the \
+             photons fit",
             rounded(number),
-            slip.name,
-            rounded(slip.emitted(number))
-        ),
-        weight: Weight::Remark,
-        advice: "Set 'intensity' to lightIntensity as it is.".into(),
-        ..contradiction(number, slip.emitted(number), p_value)
+            self.name
+        );
+        remark(found, p_value)
     }
 }
 
-/// Whether an intensity that says `number` cannot be right where `stored` photons were stored.
-pub fn cannot_be(number: f64, stored: f64) -> bool {
-    stored > MOST_STORED * number
+/// What to make of a list whose photons do not fit the number that its intensity says.
+pub(super) struct OtherNumber {
+    pub(super) finding: Finding,
+    /// Whether the intensity is wrong, and the number says nothing.
+    pub(super) is_remark: bool,
+    /// The tests, with the number that is believed.
+    pub(super) trial: Trial,
+    pub(super) explained: Option<Explanation>,
 }
 
-/// The remark that the intensity says `number`, which cannot be.
-pub fn impossible(number: f64, fitted: f64, p_value: f64) -> Finding {
+/// What to make of `list`, whose intensity says `number`, where its photons are as rare as
+/// `p_value`; nothing where no other number fits either.
+pub(super) fn other_number(list: &OfList, number: f64, p_value: f64) -> Option<OtherNumber> {
+    let of = |emitted| OfList { emitted, ..*list };
+    let new = |finding: Finding, trial, explained| {
+        let is_remark = finding.weight == Weight::Remark;
+        Some(OtherNumber { finding, is_remark, trial, explained })
+    };
+    for slip in SLIPS {
+        let trial = best_trial(&of(Some(slip.emitted(number))));
+        if trial.p_value >= LEAST_LIKELY_SLIP {
+            return new(slip.finding(number, p_value), trial, None);
+        }
+    }
+    let by_shape = best_trial(&of(None));
+    if by_shape.p_value >= SIGNIFICANCE {
+        let [says, fitted] = [number, by_shape.emitted].map(rounded);
+        let cannot_be = list.observation.records as f64 > MOST_STORED * number;
+        let finding = if cannot_be {
+            let found = format!(
+                "the intensity says {says} emitted, which cannot be: the photons fit {fitted}"
+            );
+            remark(found, p_value)
+        } else {
+            contradiction(format!("the intensity says {says}, the photons fit {fitted}"), p_value)
+        };
+        return new(finding, by_shape, None);
+    }
+    SLIPS.into_iter().find_map(|slip| {
+        let list = of(Some(slip.emitted(number)));
+        let explained = list.explain()?;
+        new(slip.finding(number, p_value), best_trial(&list), Some(explained))
+    })
+}
+
+/// The remark that the intensity is wrong.
+fn remark(found: String, p_value: f64) -> Finding {
     Finding {
-        found: format!(
-            "the intensity says {} emitted, which cannot be: the photons fit {}",
-            rounded(number),
-            rounded(fitted)
-        ),
         weight: Weight::Remark,
         advice: "Set 'intensity' to lightIntensity as it is.".into(),
-        ..contradiction(number, fitted, p_value)
+        ..contradiction(found, p_value)
     }
 }
 
-/// The fault that the intensity says `number`, and the photons fit `fitted` emitted.
-pub fn contradiction(number: f64, fitted: f64, p_value: f64) -> Finding {
+/// The fault that the intensity says another number than the photons do.
+fn contradiction(found: String, p_value: f64) -> Finding {
     Finding {
         check: "number by intensity",
         section: Some(Section::PhotonStorage.title()),
         expected: "photons for as many emitted as the intensity says".to_owned(),
-        found: format!(
-            "the intensity says {}, the photons fit {}",
-            rounded(number),
-            rounded(fitted)
-        ),
+        found,
         p_value: Some(p_value),
         passed: false,
         weight: Weight::Fault,

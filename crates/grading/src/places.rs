@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::limits::LEEWAY;
 use photon_mapping::scene::Scene;
 
 /// How far off its surface a stored position may be, in world units: the handout does not say where
@@ -60,6 +61,8 @@ pub struct Places {
     pub surfaces: Vec<String>,
     /// How many cells all facets have together.
     pub cells: usize,
+    /// The facet of each.
+    pub facet_of_cell: Vec<usize>,
     /// For each box that stands on a facet: that facet, and the inward half planes of its foot.
     footprints: Vec<Footprint>,
 }
@@ -148,8 +151,20 @@ impl Places {
         }
         let surfaces: Vec<_> =
             scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()).collect();
+        let cells_of = |(at, facet): (usize, &Facet)| vec![at; facet.divisions * facet.divisions];
+        let facet_of_cell = facets.iter().enumerate().flat_map(cells_of).collect();
         let footprints = footprints(&facets, surfaces.len());
-        Self { facets, surfaces, cells, footprints }
+        Self { facets, surfaces, cells, facet_of_cell, footprints }
+    }
+
+    /// By which part of itself the number of photons in `cell` may be off, see [`LEEWAY`].
+    pub fn leeway_of_cell(&self, cell: usize) -> f64 {
+        LEEWAY * self.facets[self.facet_of_cell[cell]].divisions as f64
+    }
+
+    /// The same of all cells.
+    pub fn leeway_of_cells(&self) -> Vec<f64> {
+        (0..self.cells).map(|cell| self.leeway_of_cell(cell)).collect()
     }
 
     /// Where `position`, in world space, lies.
@@ -203,40 +218,10 @@ impl Places {
 
     /// The name of cell `cell`: its facet, and its place in the facet's grid.
     pub fn cell_name(&self, cell: usize) -> String {
-        let facet = self.facets.iter().rposition(|facet| facet.first_cell <= cell);
-        let facet = facet.unwrap_or_default();
+        let facet = self.facet_of_cell[cell];
         let Facet { first_cell, divisions, .. } = self.facets[facet];
         let (row, column) = ((cell - first_cell) / divisions, (cell - first_cell) % divisions);
         format!("{} cell {}/{}", self.name(facet), row + 1, column + 1)
-    }
-
-    /// Groups of cells: the cells of a facet each on its own if at least `least` photons of
-    /// `emitted` are expected in each of them, else the whole facet, and all facets that have fewer
-    /// together.
-    pub fn joined_cells(&self, mean: &[f64], emitted: f64, least: f64) -> Vec<usize> {
-        let mut groups = vec![0; self.cells];
-        let mut count = 0;
-        let mut small = None;
-        let mut next = || {
-            count += 1;
-            count - 1
-        };
-        for facet in &self.facets {
-            let cells = facet.first_cell..facet.first_cell + facet.divisions * facet.divisions;
-            let of_facet = &mean[cells.clone()];
-            let fewest = of_facet.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-            if emitted * fewest >= least {
-                cells.for_each(|cell| groups[cell] = next());
-                continue;
-            }
-            let group = if emitted * of_facet.iter().sum::<f64>() >= least {
-                next()
-            } else {
-                *small.get_or_insert_with(&mut next)
-            };
-            groups[cells].fill(group);
-        }
-        groups
     }
 
     /// The name of facet `facet`: its surface, and where it looks if the surface has several.

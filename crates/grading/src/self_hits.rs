@@ -4,8 +4,6 @@
 use super::judge_list::Expectations;
 use super::observation::Observation;
 use super::signature::classes;
-use super::statistics::{Fit, fit, towards};
-use super::trial::LEEWAY;
 use variants::variation::{FACETS, survival_of_facets};
 
 /// How many standard deviations the places of self-hits must be towards those of first hits: what
@@ -41,32 +39,30 @@ pub(super) fn explain_by_self_hits(
     observation: &Observation,
     emitted: Option<f64>,
     expectations: &Expectations,
-) -> Option<Fit> {
+) -> bool {
     let places = &expectations.places;
-    let direct_stored =
-        expectations.misreadings.iter().position(|hypothesis| hypothesis.id == "direct-stored")?;
-    let with_first_hits = &expectations.signatures.misreadings[direct_stored].classes;
-    let law = expectations.signatures.fair[0].law_of_classes(LEEWAY);
+    let reference = expectations.reference();
+    let Some(with_direct) = expectations.with_direct() else { return false };
+    let with_first_hits = &with_direct.classes;
     let distinct = classes(&observation.distinct, places);
-    let of_distinct = fit(&distinct, &law, emitted);
-    let shows_first_hits = towards(&distinct, &law, with_first_hits, emitted) > FIRST_HITS_SHOW;
-    let size = of_distinct.emitted;
+    let size = emitted.unwrap_or_else(|| reference.fit_size(&distinct));
+    let shows_first_hits =
+        reference.towards(with_direct, &distinct, size, emitted.is_none()) > FIRST_HITS_SHOW;
     let is_between = |class: usize| {
-        let scattered = size * law.mean[class];
-        let first = size * (with_first_hits[class] - law.mean[class]).max(0.0);
+        let scattered = size * reference.classes[class];
+        let first = size * (with_first_hits[class] - reference.classes[class]).max(0.0);
         let by_chance = 5.0 * (scattered + first).sqrt() + 5.0;
         let least = LEAST_SCATTERED * scattered - by_chance;
         let most = 1.1 * scattered + MOST_FIRST_HITS * first + by_chance;
         // Of an unknown size, only the shape of what is left tells.
         emitted.is_none() || (least..most).contains(&distinct[class])
     };
-    let explains = shows_first_hits
+    shows_first_hits
         && (0..places.facets.len()).all(is_between)
         && emitted.is_none_or(|emitted| {
             let counts = classes(&observation.counts, places);
             loses_what_self_hits_lose(emitted, &counts, &distinct, with_first_hits, expectations)
-        });
-    explains.then_some(of_distinct)
+        })
 }
 
 /// Whether facets that the light does not reach have as many photons fewer as self-hits lose on
@@ -78,7 +74,7 @@ fn loses_what_self_hits_lose(
     with_first_hits: &[f64],
     expectations: &Expectations,
 ) -> bool {
-    let reference = &expectations.signatures.fair[0];
+    let reference = expectations.reference();
     let first_hits =
         |facet: usize| emitted * (with_first_hits[facet] - reference.classes[facet]).max(0.0);
     let scattered = |facet: usize| emitted * reference.classes[facet];

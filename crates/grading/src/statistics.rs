@@ -9,178 +9,90 @@ pub type Matrix = Vec<Vec<f64>>;
 /// How well counts agree with a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
-    /// The squared distance between counts and expectation, in units of the covariance.
-    pub distance: f64,
-    /// How many of the counts are free to differ.
-    pub degrees: usize,
     /// The chance of so large a distance or a larger one, were the law true.
     pub p_value: f64,
     /// The logarithm of the likelihood, but for a constant.
     pub log_likelihood: f64,
-    /// How many photons were emitted: as given, or as it fits best.
-    pub emitted: f64,
 }
 
-/// The law of counts: their means and covariance for one photon emitted.
-#[derive(Clone, Debug, PartialEq)]
+impl Fit {
+    /// Of what needs no counts.
+    pub const CERTAIN: Self = Self { p_value: 1.0, log_likelihood: 0.0 };
+}
+
+/// The normal law of some counts.
+#[derive(Clone, Debug)]
 pub struct Law {
-    /// The means.
-    pub mean: Vec<f64>,
-    /// The covariance.
-    pub covariance: Matrix,
-    /// With how many photons the means were themselves measured.
-    pub measured_with: f64,
-    /// By which part of itself each mean may be off for reasons that a course cannot fault, such as
-    /// where exactly a ray starts, or how far off its surface a position is stored.
-    pub leeway: Vec<f64>,
-}
-
-/// Holds `counts` against `law` for `emitted` photons, or for as many as fit best: the test of
-/// Wald.
-pub fn fit(counts: &[f64], law: &Law, emitted: Option<f64>) -> Fit {
-    let Some(emitted) = emitted else {
-        return fit_of_any_size(counts, law);
-    };
-    let factor = Cholesky::new(&law.of(emitted));
-    let residual: Vec<f64> =
-        counts.iter().zip(&law.mean).map(|(count, mean)| count - emitted * mean).collect();
-    conclude(&factor, &residual, counts.len(), emitted)
-}
-
-fn fit_of_any_size(counts: &[f64], law: &Law) -> Fit {
-    let total: f64 = counts.iter().sum();
-    let mut emitted = (total / law.mean.iter().sum::<f64>()).max(1.0);
-    for _ in 0..3 {
-        let factor = Cholesky::new(&law.of(emitted));
-        let (whitened_mean, whitened) = (factor.whiten(&law.mean), factor.whiten(counts));
-        emitted = (dot(&whitened_mean, &whitened) / dot(&whitened_mean, &whitened_mean)).max(1.0);
-    }
-    let factor = Cholesky::new(&law.of(emitted));
-    let residual: Vec<f64> =
-        counts.iter().zip(&law.mean).map(|(count, mean)| count - emitted * mean).collect();
-    conclude(&factor, &residual, counts.len() - 1, emitted)
-}
-
-fn conclude(factor: &Cholesky, residual: &[f64], degrees: usize, emitted: f64) -> Fit {
-    let whitened = factor.whiten(residual);
-    let distance = dot(&whitened, &whitened);
-    Fit {
-        distance,
-        degrees,
-        p_value: chi_squared_tail(distance, degrees),
-        log_likelihood: -0.5 * (distance + factor.log_determinant()),
-        emitted,
-    }
+    mean: Vec<f64>,
+    factor: Cholesky,
+    /// The way on which nothing is known, whitened and of length 1.
+    free: Option<Vec<f64>>,
 }
 
 impl Law {
-    /// The covariance of counts of `emitted` photons about this law's means.
-    fn of(&self, emitted: f64) -> Matrix {
-        let scale = emitted * (1.0 + emitted / self.measured_with);
-        let mut covariance: Matrix = self
-            .covariance
-            .iter()
-            .map(|row| row.iter().map(|entry| scale * entry).collect())
-            .collect();
-        for (at, mean) in self.mean.iter().enumerate() {
-            // A count of less than one is as good as one.
-            covariance[at][at] += (self.leeway[at] * emitted * mean).powi(2) + 0.1;
+    /// The law with this `mean` and `covariance`, where the counts may be off by any part of
+    /// `free`.
+    pub fn new(mean: &[f64], covariance: &Matrix, free: Option<&Vec<f64>>) -> Self {
+        let factor = Cholesky::new(covariance);
+        let free = free.map(|way| {
+            let way = factor.whiten(way);
+            let length = dot(&way, &way).sqrt().max(f64::MIN_POSITIVE);
+            way.into_iter().map(|along| along / length).collect()
+        });
+        Self { mean: mean.to_vec(), factor, free }
+    }
+
+    /// From `from` to `to`, whitened, without what is free.
+    fn whiten(&self, to: &[f64], from: &[f64]) -> Vec<f64> {
+        let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+        let mut way = self.factor.whiten(&way);
+        if let Some(free) = &self.free {
+            let along = dot(&way, free);
+            way.iter_mut().zip(free).for_each(|(way, free)| *way -= along * free);
         }
-        covariance
+        way
     }
 
-    /// The standard deviations of counts of `emitted` photons about this law's means, leeway
-    /// included.
-    pub fn deviations(&self, emitted: f64) -> Vec<f64> {
-        self.of(emitted).iter().enumerate().map(|(at, row)| row[at].sqrt()).collect()
-    }
-
-    /// The law of the sums of counts that have the same number in `groups`, of which there are
-    /// `count`.
-    pub fn grouped(&self, groups: &[usize], count: usize) -> Self {
-        let mut covariance = vec![vec![0.0; count]; count];
-        for (a, group) in groups.iter().enumerate() {
-            for (b, other) in groups.iter().enumerate() {
-                covariance[*group][*other] += self.covariance[a][b];
-            }
+    /// Holds `counts` against this law: the test of Wald.
+    pub fn fit(&self, counts: &[f64]) -> Fit {
+        let whitened = self.whiten(counts, &self.mean);
+        let distance = dot(&whitened, &whitened);
+        Fit {
+            p_value: chi_squared_tail(distance, counts.len() - usize::from(self.free.is_some())),
+            log_likelihood: -0.5 * (distance + self.factor.log_determinant()),
         }
-        let mean = grouped(&self.mean, groups, count);
-        // What one count is short of, its neighbours may have: the larger the group, the less is
-        // left.
-        let off = self.mean.iter().zip(&self.leeway).map(|(mean, leeway)| (mean * leeway).powi(2));
-        let off = grouped(&off.collect::<Vec<_>>(), groups, count);
-        let leeway = mean.iter().zip(&off).map(|(mean, off)| off.sqrt() / mean.max(1e-300));
-        Self { leeway: leeway.collect(), mean, covariance, measured_with: self.measured_with }
-    }
-}
-
-/// The sums of `counts` that have the same number in `groups`.
-pub fn grouped(counts: &[f64], groups: &[usize], count: usize) -> Vec<f64> {
-    let mut sums = vec![0.0; count];
-    for (value, group) in counts.iter().zip(groups) {
-        sums[*group] += value;
-    }
-    sums
-}
-
-/// How `counts` differ from a law, to be held against many other laws.
-pub struct Residual<'a> {
-    law: &'a Law,
-    factor: Cholesky,
-    whitened: Vec<f64>,
-    size: f64,
-    /// The law's means, where the number of photons may explain a difference.
-    mean: Option<Vec<f64>>,
-}
-
-impl<'a> Residual<'a> {
-    /// Of `counts` from `law`, for `emitted` photons, or for as many as fit best.
-    pub fn new(counts: &[f64], law: &'a Law, emitted: Option<f64>) -> Self {
-        let size = emitted.unwrap_or_else(|| fit(counts, law, None).emitted);
-        let factor = Cholesky::new(&law.of(size));
-        let residual = counts.iter().zip(&law.mean).map(|(count, mean)| count - size * mean);
-        let whitened = factor.whiten(&residual.collect::<Vec<_>>());
-        let mean = emitted.is_none().then(|| factor.whiten(&law.mean));
-        Self { law, factor, whitened, size, mean }
     }
 
-    /// How many standard deviations the counts are from the law on the way to `other`, the same
-    /// law's means in another case: the best single number to tell the two apart. With it, how many
-    /// deviations apart the two laws are. Where the number of photons is not known, what it could
-    /// explain is left out.
-    pub fn towards(&self, other: &[f64]) -> (f64, f64) {
-        let way = self.law.mean.iter().zip(other).map(|(a, b)| b - a);
-        let mut way = self.factor.whiten(&way.collect::<Vec<_>>());
-        if let Some(mean) = &self.mean {
-            let along = dot(&way, mean) / dot(mean, mean);
-            way.iter_mut().zip(mean).for_each(|(way, mean)| *way -= along * mean);
-        }
-        let length = dot(&way, &way).sqrt();
-        let deviations = if length > 0.0 { dot(&self.whitened, &way) / length } else { 0.0 };
-        (deviations, self.size * length)
+    /// How many standard deviations `counts` are from this law on the way to each of `others`, the
+    /// means in other cases: the best single number to tell the two apart. With it, how many
+    /// deviations apart the two laws are.
+    pub fn towards<'a>(
+        &'a self,
+        counts: &[f64],
+        others: impl Iterator<Item = Vec<f64>> + 'a,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let residual = self.whiten(counts, &self.mean);
+        others.map(move |other| {
+            let way = self.whiten(&other, &self.mean);
+            let length = dot(&way, &way).sqrt();
+            let deviations = if length > 1e-9 { dot(&residual, &way) / length } else { 0.0 };
+            (deviations, length)
+        })
     }
 
-    /// How much likelier the counts are where an unknown part of the way to one of `others` was
-    /// gone, forward or back, than under the law itself: the evidence for something that neither
-    /// has.
-    pub fn elsewhere(&self, others: impl Iterator<Item = Vec<f64>>) -> f64 {
-        let (mut sum, mut count) = (0.0, 0.0);
-        for other in others {
-            let (deviations, length) = self.towards(&other);
+    /// How much likelier `counts` are where an unknown part of the way to one of `others` was gone,
+    /// forward or back, than under this law itself: the evidence for something that neither has.
+    pub fn elsewhere(&self, counts: &[f64], others: impl Iterator<Item = Vec<f64>>) -> f64 {
+        let others: Vec<_> = others.collect();
+        let mean_over = others.len().max(1) as f64;
+        let evidence = self.towards(counts, others.into_iter()).map(|(deviations, length)| {
             // The likelihood at its peak, times the part of the way on which it is as high
             // (Laplace).
             let part = ((2.0 * std::f64::consts::PI).sqrt() / (2.0 * length.max(1e-9))).min(1.0);
-            sum += (0.5 * deviations * deviations).min(300.0).exp() * part;
-            count += 1.0;
-        }
-        if count > 0.0 { sum / count } else { 0.0 }
+            (0.5 * deviations * deviations).min(300.0).exp() * part
+        });
+        evidence.sum::<f64>() / mean_over
     }
-}
-
-/// How many standard deviations `counts` are from `law` on the way to `other`, see
-/// [`Residual::towards`].
-pub fn towards(counts: &[f64], law: &Law, other: &[f64], emitted: Option<f64>) -> f64 {
-    Residual::new(counts, law, emitted).towards(other).0
 }
 
 /// The chance that a sum of `degrees` squared standard normal numbers is larger than `value`.
@@ -217,6 +129,7 @@ pub fn corrected(p_value: f64, tests: usize) -> f64 {
 }
 
 /// The lower triangle L of a covariance L L^T.
+#[derive(Clone, Debug)]
 struct Cholesky(Matrix);
 
 impl Cholesky {

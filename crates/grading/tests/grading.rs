@@ -5,12 +5,13 @@ use std::sync::LazyLock;
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3, Vec3Swizzles};
+use grading::expected::{Expected, fit_size};
 use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::{Counts, Observation, observe};
 use grading::places::{Place, Places};
 use grading::policy::Policy;
 use grading::signature::{Effort, Signatures, classes, measure};
-use grading::statistics::{Law, corrected, fit, normal_tails, towards};
+use grading::statistics::{corrected, normal_tails};
 use grading::verdict::{Finding, Verdict, Weight};
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
@@ -71,22 +72,25 @@ fn kept_signatures_are_those_of_the_tracer() {
         let (measured, _) = measure(hypothesis, &PLACES, emitted, 1000);
         let kept: &grading::signature::Signature = kept;
         let counts: Vec<f64> = measured.classes.iter().map(|mean| mean * emitted as f64).collect();
-        let p_value = fit(&counts, &kept.law_of_classes(0.0), Some(emitted as f64)).p_value;
+        let law = Expected { slack: vec![0.0; counts.len()], ..kept.of_classes(emitted as f64) };
+        let p_value = law.law(false).fit(&counts).p_value;
         assert!(p_value > 1e-6, "{}: {p_value:e}", hypothesis.title);
     };
     assert_eq!(kept.fair.len(), fair_readings().len());
     for (hypothesis, kept) in fair_readings().iter().zip(&kept.fair) {
-        check(hypothesis, kept, 400_000);
+        assert_eq!(*hypothesis, kept.hypothesis);
+        check(hypothesis, &kept.signature, 400_000);
     }
     assert_eq!(kept.misreadings.len(), misreadings().len());
     for (hypothesis, kept) in misreadings().iter().zip(&kept.misreadings) {
-        check(hypothesis, kept, 40_000);
+        assert_eq!(*hypothesis, kept.hypothesis);
+        check(hypothesis, &kept.signature, 40_000);
     }
 }
 
 #[test]
 fn the_reference_s_signature_agrees_with_the_oracle() {
-    let signature = &Signatures::of_assignment8().fair[0];
+    let signature = &Signatures::of_assignment8().fair[0].signature;
     let oracle = ExpectedTable::of_assignment8();
     let total: f64 = signature.classes.iter().sum();
     // The standard deviation of the stored total is 316 per million photons and root million.
@@ -159,12 +163,10 @@ fn cells_of_a_facet_cover_it_evenly() {
 #[test]
 fn wald_s_distance_follows_its_law() {
     // Two correlated counts: u + v and u, with u and v binomial.
-    let law = Law {
-        mean: vec![0.3, 0.2],
-        covariance: vec![vec![0.25, 0.16], vec![0.16, 0.16]],
-        measured_with: 1e12,
-        leeway: vec![0.0; 2],
-    };
+    let covariance = [[0.25, 0.16], [0.16, 0.16]];
+    let covariance = |a: usize, b: usize| covariance[a][b];
+    let expected = Expected::of_paths(&[0.3, 0.2], covariance, 1e12, &[0.0; 2], 1000.0);
+    let law = expected.law(false);
     let mut rand = photon_random(2, 2);
     let (mut below, mut far, rounds) = (0, 0, 2000);
     for _ in 0..rounds {
@@ -173,9 +175,9 @@ fn wald_s_distance_follows_its_law() {
             u += f64::from(u8::from(rand() < 0.2));
             v += f64::from(u8::from(rand() < 0.1));
         }
-        let p_value = fit(&[u + v, u], &law, Some(1000.0)).p_value;
-        below += i32::from(p_value < 0.1);
-        far += i32::from(towards(&[u + v, u], &law, &[0.4, 0.2], Some(1000.0)).abs() > 1.645);
+        below += i32::from(law.fit(&[u + v, u]).p_value < 0.1);
+        let mut towards = law.towards(&[u + v, u], [vec![400.0, 200.0]].into_iter());
+        far += i32::from(towards.all(|(deviations, _)| deviations.abs() > 1.645));
     }
     // 200 are expected, with a standard deviation of 13.
     assert!((140..260).contains(&below), "{below}");
@@ -184,19 +186,19 @@ fn wald_s_distance_follows_its_law() {
 
 #[test]
 fn of_an_unknown_size_the_shape_alone_counts() {
-    let law = Law {
-        mean: vec![0.01, 0.02, 0.03],
-        covariance: vec![vec![0.01, 0.0, 0.0], vec![0.0, 0.02, 0.0], vec![0.0, 0.0, 0.03]],
-        measured_with: 1e12,
-        leeway: vec![0.0; 3],
-    };
-    let twice = fit(&[2000.0, 4000.0, 6000.0], &law, None);
-    assert!(twice.p_value > 0.99 && (twice.emitted - 200_000.0).abs() < 100.0, "{twice:?}");
-    assert!(fit(&[2000.0, 4000.0, 6000.0], &law, Some(100_000.0)).p_value < 1e-100);
-    assert!(fit(&[2300.0, 4000.0, 5700.0], &law, None).p_value < 1e-6);
+    let mean = [0.01, 0.02, 0.03];
+    let covariance = |a: usize, b: usize| if a == b { mean[a] } else { 0.0 };
+    let of = |emitted| Expected::of_paths(&mean, covariance, 1e12, &[0.0; 3], emitted);
+    let size_of = |counts: &[f64]| fit_size(counts, |emitted| of(emitted).mean, of);
+    let fit = |counts: &[f64]| of(size_of(counts)).law(true).fit(counts).p_value;
+    let twice = [2000.0, 4000.0, 6000.0];
+    assert!(fit(&twice) > 0.99 && (size_of(&twice) - 200_000.0).abs() < 100.0);
+    assert!(of(100_000.0).law(false).fit(&twice).p_value < 1e-100);
+    assert!(fit(&[2300.0, 4000.0, 5700.0]) < 1e-6);
     // Nothing is left of a way that leads to more of the same.
-    let more = towards(&[2000.0, 4100.0, 5900.0], &law, &[0.02, 0.04, 0.06], None);
-    assert!(more.abs() < 1e-6, "{more}");
+    let law = of(200_000.0).law(true);
+    let mut more = law.towards(&[2000.0, 4100.0, 5900.0], [of(400_000.0).mean].into_iter());
+    assert!(more.all(|(deviations, _)| deviations.abs() < 1e-6));
 }
 
 #[test]
@@ -426,18 +428,19 @@ fn positions_hardly_show_whether_three_bounces_or_two_were_allowed() {
     };
     let (of_three, covariance) = measure(&plain, &PLACES, 16_000_000, 3);
     let (of_two, _) = measure(&short, &PLACES, 16_000_000, 3);
-    let cells = of_three.cells.len();
     // To a test that knows both laws, and nothing else that a fair reading may do.
-    let law = Law {
-        mean: of_three.cells,
-        covariance,
-        measured_with: f64::INFINITY,
-        leeway: vec![0.0; cells],
-    };
     let emitted = EMITTED as f64;
+    let mean = &of_three.cells;
+    let none = vec![0.0; mean.len()];
+    let law =
+        |emitted| Expected::of_paths(mean, |a, b| covariance[a][b], f64::INFINITY, &none, emitted);
     let counts: Vec<f64> = of_two.cells.iter().map(|mean| emitted * mean).collect();
-    let [known, unknown] =
-        [Some(emitted), None].map(|number| towards(&counts, &law, &of_two.cells, number));
+    let fitted = fit_size(&counts, |emitted| law(emitted).mean, law);
+    let [known, unknown] = [(emitted, false), (fitted, true)].map(|(emitted, is_free)| {
+        let law = law(emitted).law(is_free);
+        law.towards(&counts, [counts.clone()].into_iter()).map(|(deviations, _)| deviations).sum()
+    });
+    let [known, unknown]: [f64; 2] = [known, unknown];
     println!("{known:.2} standard deviations apart, {unknown:.2} where the number is not known");
     assert!((5.0..6.0).contains(&known), "{known}");
     assert!((2.0..3.2).contains(&unknown), "{unknown}");
@@ -695,7 +698,7 @@ fn only_a_direction_that_is_reversed_throughout_is_called_so() {
 fn what_is_told_beside_a_p_value_has_its_leeway() {
     // A part in a hundred more on one facet: far beyond chance at ten million photons, but little
     // beyond the leeway.
-    let signature = &Signatures::of_assignment8().fair[0];
+    let signature = &Signatures::of_assignment8().fair[0].signature;
     let emitted = 1e7;
     let mut counts = Counts::new(&PLACES);
     counts.cells = signature.cells.iter().map(|mean| emitted * mean).collect();

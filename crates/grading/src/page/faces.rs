@@ -48,7 +48,7 @@ impl Pages<'_> {
             self.profile(judgement.reading.variation, PHOTONS_FOR_CURVES).scaled(*emitted);
         let misread = judgement.explanation.as_ref().map(|explanation| {
             self.profile(explanation.hypothesis.variation, PHOTONS_FOR_MISREADINGS)
-                .scaled(explanation.fit.emitted)
+                .scaled(explanation.emitted)
         });
         let misread = misread.as_ref();
         let scaled = |numbers: &[f64]| numbers.iter().map(|n| n * emitted).collect::<Vec<f64>>();

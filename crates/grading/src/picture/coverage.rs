@@ -10,8 +10,6 @@ use super::view::View;
 use crate::places::Places;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
-/// By how much coverage may differ from what it is thought to be.
-pub const LEEWAY: f64 = 0.02;
 /// How far off their plane positions may be before coverage changes, up to where nothing is left,
 /// in world units, in steps between which it changes by three hundredths.
 pub const STANDOFFS: [f64; 37] = {

@@ -2,11 +2,10 @@
 
 use std::sync::OnceLock;
 
-use super::signature::{PictureSignatures, known_misreadings, known_pairs};
+use super::signature::PictureSignatures;
 use super::view::View;
 use crate::places::Places;
 use crate::signature::Effort;
-use variants::hypotheses::{Hypothesis, fair_readings};
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
 const MANY_BOUNCES: i32 = 20;
@@ -22,9 +21,8 @@ pub struct PictureExpectations {
     shifted: OnceLock<View>,
     /// The signatures of all hypotheses.
     pub signatures: PictureSignatures,
-    pub(super) fair: Vec<Hypothesis>,
-    pub(super) misreadings: Vec<Hypothesis>,
-    pub(super) pairs: Vec<Hypothesis>,
+    /// By cell in sight: by which part of itself the density of photons may be off.
+    pub(super) leeway: Vec<f64>,
     /// By facet in sight: whether it is at right angles to no axis.
     pub(super) is_askew: Vec<bool>,
 }
@@ -41,26 +39,17 @@ impl PictureExpectations {
         };
         let is_askew = |facet: &usize| places.facets[*facet].normal.abs().max_element() < 0.99;
         Self {
+            leeway: view.cells.iter().map(|cell| places.leeway_of_cell(*cell)).collect(),
             is_askew: view.facets.iter().map(is_askew).collect(),
             places: places.clone(),
             view,
             shifted: OnceLock::new(),
             signatures,
-            fair: fair_readings(),
-            misreadings: known_misreadings(places),
-            pairs: known_pairs(places),
         }
     }
 
     /// The view through the middles of pixels.
     pub fn shifted(&self) -> &View {
         self.shifted.get_or_init(|| self.view.shifted(&self.places))
-    }
-
-    /// The names of the facets, and of the cells in sight.
-    pub(super) fn names(&self, view: &View) -> (Vec<String>, Vec<String>) {
-        let facets = view.facets.iter().map(|facet| self.places.name(*facet)).collect();
-        let cells = view.cells.iter().map(|cell| self.places.cell_name(*cell)).collect();
-        (facets, cells)
     }
 }

@@ -3,10 +3,10 @@
 pub mod coverage;
 pub mod dot_size;
 pub mod dots;
+mod dotted;
 pub mod expectations;
 pub mod expected;
 pub mod judge;
-mod naming;
 mod off_surface;
 pub mod reading;
 pub mod signature;

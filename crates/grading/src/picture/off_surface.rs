@@ -1,10 +1,14 @@
 //! Dots of positions that are off their surfaces, as far as leaves the dots that there are.
 
 use super::coverage::{STANDOFFS, coverage};
+use super::dotted::OfPicture;
 use super::expected::means;
-use super::judge::{Case, FEWEST_RED, SIZES, Trial, better, bisect};
+use super::judge::FEWEST_RED;
 use super::words::LEAST_EMITTED;
-use crate::judge_list::SIGNIFICANCE;
+use crate::evidence::Evidence;
+use crate::expected::bisect;
+use crate::limits::SIGNIFICANCE;
+use crate::trial::{Trial, attempt};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
 /// With fewer groups of cells than this, anything fits that has this many numbers to choose.
@@ -12,25 +16,34 @@ const FEWEST_GROUPS: usize = 4;
 /// But so few red pixels have no more groups.
 const SHORT: f64 = 1000.0;
 
-impl Case<'_> {
-    /// As [`Self::best_trial`], of positions that are off their surfaces, and of enough photons.
-    pub(super) fn best_trial_off_surface(&self) -> Option<Trial> {
+/// The numbers of photons between which it is sought: with fewer or more no picture can be judged.
+const SIZES: [f64; 2] = [10.0, 1e8];
+
+impl OfPicture<'_> {
+    /// The fair reading, of positions that are off their surfaces, and of enough photons, under
+    /// which the picture is least strange; with how far off they are.
+    pub(super) fn best_trial_off_surface(&self) -> Option<(Trial, f64)> {
         let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= LEAST_EMITTED;
-        let attempts = (0..self.expectations.fair.len()).flat_map(|reading| {
-            let standoffs = self.standoffs(reading);
-            standoffs.into_iter().map(move |standoff| self.attempt(reading, Some(standoff)))
-        });
         let is_short = self.counts.iter().sum::<f64>() < SHORT;
-        let can_fail = |trial: &Trial| is_short || trial.groups.1 >= FEWEST_GROUPS;
-        let off = attempts.filter(is_enough).filter(can_fail).reduce(better)?;
-        (off.p_value >= SIGNIFICANCE).then_some(off)
+        let can_fail = |trial: &Trial| is_short || trial.groups >= FEWEST_GROUPS;
+        let attempts = (0..self.table().fair.len()).flat_map(|reading| {
+            let attempt = move |standoff| {
+                let coverage = coverage(self.view, &self.expectations.places, standoff);
+                let off = Self { coverage, ..*self };
+                (attempt(&off, &off.joined(), reading), standoff)
+            };
+            self.standoffs(reading).into_iter().map(attempt)
+        });
+        let off = attempts.filter(|(trial, _)| is_enough(trial) && can_fail(trial));
+        let best = off.max_by(|(a, _), (b, _)| a.p_value.total_cmp(&b.p_value));
+        best.filter(|(trial, _)| trial.p_value >= SIGNIFICANCE)
     }
 
     /// The numbers of red pixels on facets that are askew to all axes, and on others.
     fn askew_and_straight(&self, of_cells: &[f64]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (cell, count) in of_cells.iter().enumerate() {
-            let is_askew = self.expectations.is_askew[self.view.facet_of_cell(cell)];
+            let is_askew = self.expectations.is_askew[self.view.facet_of_cell[cell]];
             sums[usize::from(!is_askew)] += count;
         }
         sums
@@ -39,9 +52,7 @@ impl Case<'_> {
     /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to
     /// expect: they are the first to lose some where positions are off.
     pub(super) fn may_be_off_surface(&self, trial: &Trial) -> bool {
-        let signature = &self.expectations.signatures.fair[trial.reading];
-        let at_rest = vec![1.0; self.view.facets.len()];
-        let means = means(self.view, signature, trial.emitted, &at_rest);
+        let means = self.means(&self.table().fair[trial.reading], trial.emitted);
         let [askew, straight] = self.askew_and_straight(self.counts);
         let [askew_mean, straight_mean] = self.askew_and_straight(&means);
         askew * straight_mean < straight * askew_mean || straight < 0.01 * straight_mean
@@ -51,7 +62,7 @@ impl Case<'_> {
     /// for as many photons as the others show. Where these show none, nothing but the number itself
     /// tells.
     fn standoffs(&self, reading: usize) -> Vec<f64> {
-        let signature = &self.expectations.signatures.fair[reading];
+        let signature = &self.table().fair[reading].signature;
         let expect = |size: f64, standoff: f64| {
             let coverage = coverage(self.view, &self.expectations.places, standoff);
             self.askew_and_straight(&means(self.view, signature, size, &coverage))

@@ -1,25 +1,17 @@
 //! How likely each hypothesis turns which pixels red, measured by tracing it.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
-
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::view::View;
-use crate::kept::{Effort, take};
+use crate::kept::{Effort, Hypotheses, Kept, Sums, Table, add, add_matrix, sum};
 use crate::places::Places;
 use crate::statistics::Matrix;
 use photon_mapping::assignment8::MAX_PHOTON_BOUNCES;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::{PAIR, can_be_of_two, pairs};
-use variants::variation::{FACETS, Simulation, Variation};
+use variants::variation::{FACETS, Variation};
 
-/// How many photons a thread traces at once.
-const PIECE: u64 = 1 << 16;
-/// The seed of the signatures.
-const SEED: u64 = 0x9_2019;
 /// Photons of one path that are closer together than this, in world units, show as one dot.
 const SAME_PLACE: f32 = 1e-4;
 /// Without an offset, which part of the scattered photons meets its own surface depends on
@@ -39,63 +31,43 @@ pub struct PictureSignature {
 }
 
 /// The signatures of all hypotheses, for a view without a shift.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PictureSignatures {
-    /// How often photons may bounce.
-    pub max_bounces: i32,
-    /// For [`fair_readings`], in their order.
-    pub fair: Vec<PictureSignature>,
-    /// For [`known_misreadings`], in their order.
-    pub misreadings: Vec<PictureSignature>,
-    /// For [`known_pairs`], in their order.
-    pub pairs: Vec<PictureSignature>,
+pub type PictureSignatures = Table<PictureSignature>;
+
+fn hypotheses(places: &Places) -> Hypotheses {
+    [fair_readings(), known_misreadings(places), known_pairs(places)]
 }
 
-/// Signatures as they are kept: each under what its hypothesis is called.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Kept {
-    /// By [`Hypothesis::key`].
-    pub of: BTreeMap<String, PictureSignature>,
-}
-
-impl Kept {
-    /// Those of the assignment as it stands: a test measures some of them again.
-    pub fn of_assignment8() -> Self {
-        let json = include_str!("../../golden/signatures-of-pictures.json");
-        serde_json::from_str(json)
+impl Kept<PictureSignature> {
+    /// Those of pictures of the assignment as it stands: a test measures some of them again.
+    pub fn of_pictures() -> Self {
+        serde_json::from_str(include_str!("../../golden/signatures-of-pictures.json"))
             .expect("the signatures that are part of the program are well formed")
     }
 
     /// Measures what is missing, for photons that may bounce `max_bounces` times.
-    pub fn complete(&mut self, places: &Places, view: &View, max_bounces: i32, effort: Effort) {
-        let all = [fair_readings(), known_misreadings(places), known_pairs(places)].concat();
-        for hypothesis in all.into_iter().filter(|it| effort.photons(it) > 0) {
-            let measure = || measure(&hypothesis, view, effort.photons(&hypothesis), max_bounces);
-            self.of.entry(hypothesis.key()).or_insert_with(measure);
-        }
+    pub fn complete_pictures(
+        &mut self,
+        places: &Places,
+        view: &View,
+        max_bounces: i32,
+        effort: Effort,
+    ) {
+        let measure = |it: &Hypothesis, photons| measure(it, view, photons, max_bounces);
+        self.measure_missing(&hypotheses(places), effort, measure);
     }
 }
 
 impl PictureSignatures {
     /// Those of the assignment as it stands, measured beforehand.
     pub fn of_assignment8(places: &Places) -> Self {
-        Self::new(places, MAX_PHOTON_BOUNCES, Kept::of_assignment8())
+        Kept::of_pictures().table(MAX_PHOTON_BOUNCES, hypotheses(places))
     }
 
     /// Measures all signatures for photons that may bounce `max_bounces` times.
     pub fn measure(places: &Places, view: &View, max_bounces: i32, effort: Effort) -> Self {
         let mut kept = Kept::default();
-        kept.complete(places, view, max_bounces, effort);
-        Self::new(places, max_bounces, kept)
-    }
-
-    fn new(places: &Places, max_bounces: i32, Kept { mut of }: Kept) -> Self {
-        Self {
-            max_bounces,
-            fair: take(&mut of, &fair_readings()),
-            misreadings: take(&mut of, &known_misreadings(places)),
-            pairs: take(&mut of, &known_pairs(places)),
-        }
+        kept.complete_pictures(places, view, max_bounces, effort);
+        kept.table(max_bounces, hypotheses(places))
     }
 }
 
@@ -142,19 +114,15 @@ fn self_hits(straight: f32, askew: f32, places: &Places) -> [f32; FACETS] {
 }
 
 /// Sums over photons, and over pairs of photons of one path.
-struct Sums {
+struct OfPixels<'a> {
+    view: &'a View,
     red: Vec<f64>,
     pairs: Matrix,
 }
 
-impl Sums {
-    fn new(view: &View) -> Self {
-        let facets = view.facets.len();
-        Self { red: vec![0.0; view.patches.len()], pairs: vec![vec![0.0; facets]; facets] }
-    }
-
-    /// Adds what one path stores.
-    fn add_path(&mut self, path: &[PhotonRecord], view: &View) {
+impl Sums for OfPixels<'_> {
+    fn add_path(&mut self, path: &[PhotonRecord]) {
+        let view = self.view;
         let mut pixels = vec![0.0; view.facets.len()];
         let mut own = pixels.clone();
         for (at, record) in path.iter().enumerate() {
@@ -183,11 +151,8 @@ impl Sums {
     }
 
     fn add(&mut self, other: &Self) {
-        let add = |sums: &mut Vec<f64>, others: &Vec<f64>| {
-            sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
-        };
         add(&mut self.red, &other.red);
-        self.pairs.iter_mut().zip(&other.pairs).for_each(|(a, b)| add(a, b));
+        add_matrix(&mut self.pairs, &other.pairs);
     }
 }
 
@@ -198,22 +163,14 @@ pub fn measure(
     emitted: u64,
     max_bounces: i32,
 ) -> PictureSignature {
-    let simulation = Simulation::new(hypothesis.variation, SEED, emitted, max_bounces);
-    let piece = |photons: Range<u64>| {
-        let mut sums = Sums::new(view);
-        let records = simulation.trace(photons);
-        records.chunk_by(|a, b| a.photon == b.photon).for_each(|path| sums.add_path(path, view));
-        sums
+    let facets = view.facets.len();
+    let none = || OfPixels {
+        view,
+        red: vec![0.0; view.patches.len()],
+        pairs: vec![vec![0.0; facets]; facets],
     };
-    let starts: Vec<u64> = (0..emitted).step_by(PIECE as usize).collect();
-    let mut sums = Sums::new(view);
-    // In waves, so that memory does not grow with the photons; sums of whole numbers have no order.
-    for wave in starts.chunks(256) {
-        let pieces: Vec<Sums> =
-            wave.par_iter().map(|start| piece(*start..emitted.min(start + PIECE))).collect();
-        pieces.iter().for_each(|of_piece| sums.add(of_piece));
-    }
+    let OfPixels { red, pairs, .. } = sum(hypothesis, emitted, max_bounces, none);
     let emitted = emitted as f64;
-    let pairs = sums.pairs.iter().map(|row| row.iter().map(|sum| sum / emitted).collect());
-    PictureSignature { emitted, red: sums.red, pairs: pairs.collect() }
+    let pairs = pairs.iter().map(|row| row.iter().map(|sum| sum / emitted).collect()).collect();
+    PictureSignature { emitted, red, pairs }
 }

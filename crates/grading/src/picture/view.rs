@@ -71,7 +71,8 @@ pub struct View {
     pub facets: Vec<usize>,
     /// The cells in sight, by their number in [`Places`].
     pub cells: Vec<usize>,
-    facet_of_cell: Vec<usize>,
+    /// By cell of [`Self::cells`], its facet of [`Self::facets`].
+    pub facet_of_cell: Vec<usize>,
     /// By facet in sight: the axis closest to its normal.
     steepest: Vec<usize>,
     /// Overlapping pairs, by patches.
@@ -200,11 +201,6 @@ impl View {
         };
         view.overlaps = view.find_overlaps();
         view
-    }
-
-    /// The facet, of [`Self::facets`], of a cell of [`Self::cells`].
-    pub fn facet_of_cell(&self, cell: usize) -> usize {
-        self.facet_of_cell[cell]
     }
 
     /// Whether a pixel shows a surface.
