@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use grading::expected::Groups;
 use grading::picture::dot_size::DotSize;
-use grading::picture::dots::{Dots, find_dots};
+use grading::picture::dots::{FoundDots, find_dots};
 use grading::picture::expectations::PictureExpectations;
 use grading::picture::expected::expect;
 use grading::picture::judge::{PictureJudgement, judge_dots};
@@ -60,7 +60,7 @@ fn framework_dot(pixel: &mut Rgb<u8>) {
     pixel.0[0] = 255;
 }
 
-fn dots_of(picture: &RgbImage) -> Result<Dots, String> {
+fn dots_of(picture: &RgbImage) -> Result<FoundDots, String> {
     find_dots(picture, &expectations().view, || expectations().shifted())
 }
 
@@ -407,6 +407,13 @@ fn what_blurs_dots_is_reported_and_not_graded() {
     let red = simulate(Variation::default(), 40, MILLION, 0.0);
     let plain = paint(view, &red, framework_dot);
     let half = imageops::resize(&plain, 320, 240, imageops::FilterType::Triangle);
+    let folder = folder();
+    let small = folder.path().join("half.png");
+    half.save(&small).expect("it can be written");
+    let graded = grade(&small, "");
+    assert_eq!(graded["verdict"], "unreadable", "{graded:#}");
+    let reason = found(&graded);
+    assert!(reason.contains("320 x 240") && reason.contains("640 x 480"), "{reason}");
     let resized = imageops::resize(&half, 640, 480, imageops::FilterType::Triangle);
     let reason = dots_of(&resized).expect_err("its dots cannot be told");
     assert!(reason.contains("JPEG") && reason.contains("resizing"), "{reason}");
@@ -430,6 +437,24 @@ fn red_that_is_no_dot_is_no_dot() {
         }
     }
     assert!(!judge(&dots_of(&background).expect("it is the view").red, None).has_dots);
+}
+
+#[test]
+fn a_picture_without_dots_is_told_so_under_a_gamma_too() {
+    let folder = folder();
+    for gamma in [1.4, 2.2, 2.6] {
+        let mut bright = expectations().view.direct.clone();
+        for channel in bright.pixels_mut().flat_map(|pixel| &mut pixel.0) {
+            *channel = (255.0 * (f64::from(*channel) / 255.0).powf(1.0 / gamma)).round() as u8;
+        }
+        let picture = folder.path().join("none.png");
+        bright.save(&picture).expect("it can be written");
+        let graded = grade(&picture, "");
+        assert_eq!(graded["verdict"], "no-dots", "{graded:#}");
+        let remarks = graded["findings"].as_array().expect("there are some").iter();
+        let mut told = remarks.filter_map(|finding| finding["found"].as_str());
+        assert!(told.any(|found| found.contains("gamma")), "{graded:#}");
+    }
 }
 
 #[test]

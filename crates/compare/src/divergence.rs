@@ -8,9 +8,9 @@ use super::alignment::Pairing;
 use super::differences::Difference;
 use super::numbers::thousands;
 use super::position_index::is_near;
-use super::verdict::{Observation, Verdict, judge};
+use super::verdict::{Cause, Parting, judge};
 use crate::explain::{Ending, Hit, Story, vector};
-use crate::known::Known;
+use crate::known::KnownRun;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::section::Section;
@@ -64,7 +64,7 @@ impl Lists<'_> {
     pub fn first_divergence(
         &self,
         differing: &[(Pairing, Difference)],
-        known: Option<&Known>,
+        known: Option<&KnownRun>,
     ) -> Divergence {
         let in_place = differing.iter().find(|(_, difference)| *difference == Difference::Place);
         let (pairing, difference) = *in_place.unwrap_or(&differing[0]);
@@ -184,7 +184,7 @@ impl Lists<'_> {
         (reference.0.or(submission.0), reference.1.or(submission.1))
     }
 
-    fn judge(&self, pairing: Pairing, story: &Story, known: &Known) -> Option<Verdict> {
+    fn judge(&self, pairing: Pairing, story: &Story, known: &KnownRun) -> Option<Cause> {
         let (_, bounce) = self.identity(pairing);
         let is_same_photon = self.submission.columns.photon;
         Some(judge(&self.observation(pairing, story, bounce?, is_same_photon, known)))
@@ -196,9 +196,9 @@ impl Lists<'_> {
         story: &'run Story,
         bounce: usize,
         is_same_photon: bool,
-        known: &'run Known,
-    ) -> Observation<'run> {
-        Observation {
+        known: &'run KnownRun,
+    ) -> Parting<'run> {
+        Parting {
             story,
             bounce,
             submission: self.submission_record(pairing),
@@ -211,7 +211,7 @@ impl Lists<'_> {
 
     /// The photon and bounce to which an extra record belongs whose list does not tell it: that of
     /// the photons next to it whose path explains it.
-    fn photon_of_extra(&self, extra: Pairing, known: &Known) -> Option<(u64, usize, Verdict)> {
+    fn photon_of_extra(&self, extra: Pairing, known: &KnownRun) -> Option<(u64, usize, Cause)> {
         let at = self.pairings.iter().position(|pairing| *pairing == extra)?;
         let photon_of = |pairing: &Pairing| {
             self.reference_record(*pairing).map(|record| u64::from(record.photon))
@@ -229,8 +229,12 @@ impl Lists<'_> {
 
     /// The verdict of most of the photons that differ: of those that leave no doubt, if there are
     /// any, else of all. Of each photon, only the first difference says anything.
-    fn majority(&self, differing: impl Iterator<Item = Pairing>, known: &Known) -> Option<Verdict> {
-        let mut votes: BTreeMap<(bool, Section), (usize, Verdict)> = BTreeMap::new();
+    fn majority(
+        &self,
+        differing: impl Iterator<Item = Pairing>,
+        known: &KnownRun,
+    ) -> Option<Cause> {
+        let mut votes: BTreeMap<(bool, Section), (usize, Cause)> = BTreeMap::new();
         let mut last = None;
         for pairing in differing {
             let (Some(photon), _) = self.identity(pairing) else { continue };
@@ -259,14 +263,14 @@ impl Lists<'_> {
         });
         most.map(|(_, (count, verdict))| {
             let is_certain = verdict.is_certain && (is_known || 10 * count > all);
-            Verdict { is_certain, ..verdict }
+            Cause { is_certain, ..verdict }
         })
     }
 }
 
 /// What remains when only records without numbers were added, and no path explains any of them.
-fn only_extra(differing: &[(Pairing, Difference)]) -> Option<Verdict> {
-    differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Extra(_))).then(|| Verdict {
+fn only_extra(differing: &[(Pairing, Difference)]) -> Option<Cause> {
+    differing.iter().all(|(pairing, _)| matches!(pairing, Pairing::Extra(_))).then(|| Cause {
         section: Section::PhotonScatteringAbsorption,
         reason: "the submission may scatter where the reference absorbs".to_owned(),
         is_certain: false,

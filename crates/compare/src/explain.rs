@@ -36,7 +36,7 @@ pub struct Story {
     /// The key of the run's random numbers.
     pub seed: u64,
     /// How it left its light.
-    pub emission: Emission,
+    pub emission: Departure,
     /// Every surface it hit, in order.
     pub hits: Vec<Hit>,
     /// Why there is no further hit.
@@ -45,7 +45,7 @@ pub struct Story {
 
 /// How a photon leaves its light.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Emission {
+pub struct Departure {
     /// Which light, in the scene's order.
     pub light: usize,
     /// Every x, y, z that was tried; the last one was taken.
@@ -138,7 +138,7 @@ pub fn explain(run: &Run, photon: u64) -> Option<Story> {
         _ => Ending::LeftTheScene,
     };
     let tries = emission_draws.chunks_exact(3).map(|xyz| [0, 1, 2].map(|i| 2.0 * xyz[i] - 1.0));
-    let emission = Emission {
+    let emission = Departure {
         light,
         tries: tries.collect(),
         direction: photon_ray.ray_direction().to_array(),

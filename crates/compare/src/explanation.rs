@@ -7,8 +7,8 @@ use super::differences::Difference;
 use super::divergence::Lists;
 use super::fair::Fair;
 use super::fair_search::{LONGEST_OFFSET, Search, Window};
-use super::hypotheses::other_emissions;
-use super::known::Known;
+use super::known::KnownRun;
+use super::tries::other_emissions;
 use crate::report::scene_size;
 use photon_list::reader::PhotonList;
 use variants::section::Section;
@@ -28,9 +28,9 @@ const SAME_EMISSION: f32 = 0.5;
 
 /// The fair way that explains differences.
 #[derive(Clone, Debug)]
-pub struct Explanation<'run> {
+pub struct FairExplanation<'run> {
     /// The reference's run, read in this way.
-    pub known: Known<'run>,
+    pub known: KnownRun<'run>,
     /// What is done in another way than in the run, each with its section of the handout.
     pub changes: Vec<(Section, String)>,
     /// How many of the photons tried match in full.
@@ -41,7 +41,7 @@ pub struct Explanation<'run> {
     pub reference: PhotonList,
 }
 
-impl Explanation<'_> {
+impl FairExplanation<'_> {
     /// What is done in another way, in one line.
     pub fn name(&self) -> String {
         let changes: Vec<_> = self.changes.iter().map(|(_, change)| change.as_str()).collect();
@@ -52,10 +52,10 @@ impl Explanation<'_> {
 /// Looks for a fair way that explains differences between `lists`; nothing if none explains clearly
 /// more than the run's own does.
 pub fn explain_fairly<'run>(
-    known: &Known<'run>,
+    known: &KnownRun<'run>,
     lists: &Lists,
     differing: &[(Pairing, Difference)],
-) -> Option<Explanation<'run>> {
+) -> Option<FairExplanation<'run>> {
     let run = known.run;
     let base = Fair::of(run)?;
     let size = run.placement.length_to_world(scene_size(run.scene()));
@@ -87,8 +87,8 @@ pub fn explain_fairly<'run>(
     }
     let reference = known.list(&fair);
     let matched = search.explained(&fair, &windows);
-    let known = Known { run, fair: Some(fair) };
-    Some(Explanation { known, changes, matched, tried: windows.len(), reference })
+    let known = KnownRun { run, fair: Some(fair) };
+    Some(FairExplanation { known, changes, matched, tried: windows.len(), reference })
 }
 
 /// Some of the photons that the submission stores, if it tells them.
@@ -100,7 +100,7 @@ fn photons_of(lists: &Lists) -> Option<Vec<u64>> {
 }
 
 /// Whether the submission's random numbers are others than the run's, as far as the lists tell.
-pub fn has_other_draws(known: &Known, lists: &Lists) -> bool {
+pub fn has_other_draws(known: &KnownRun, lists: &Lists) -> bool {
     if lists.submission.records.is_empty() {
         return false;
     }
@@ -114,15 +114,16 @@ pub fn has_other_draws(known: &Known, lists: &Lists) -> bool {
     }
     if let Some(photons) = photons_of(lists) {
         let search = Search { run: known.run, tolerance: lists.tolerance, size: 1.0 };
-        let others = other_emissions(fair.tries).map(|(tries, _)| Fair { tries, ..fair });
+        let others = other_emissions(fair.tries);
+        let mut others = others.into_iter().map(|(tries, _)| Fair { tries, ..fair });
         return search.hitting_part(&fair, &photons) < SAME_EMISSION
-            && others.iter().all(|other| search.scattered_part(other, &photons) < 0.9);
+            && others.all(|other| search.scattered_part(&other, &photons) < 0.9);
     }
     true
 }
 
 /// Whether the directions of most records lead back to a light: rays start there again.
-fn come_from_the_light(known: &Known, lists: &Lists) -> bool {
+fn come_from_the_light(known: &KnownRun, lists: &Lists) -> bool {
     if !lists.submission.columns.to_light {
         return false;
     }

@@ -3,8 +3,9 @@
 
 use glam::Vec3;
 
-use crate::explain::{Emission, Ending, Hit, Sample, Story, hit, light_of, survival};
+use crate::explain::{Departure, Ending, Hit, Sample, Story, hit, light_of, survival};
 use crate::measured_frame::MeasuredFrame;
+use crate::tries::Tries;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::sampling::sample_hemisphere;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
@@ -12,33 +13,9 @@ use variants::frame::Frame;
 use variants::run::Run;
 use variants::section::Section;
 
-/// Which of the three numbers of a try is x, y and z, and which of them are turned to 1 - 2u.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tries {
-    /// The places of x, y and z among the draws.
-    pub order: [usize; 3],
-    /// Whether x, y and z have the other sign.
-    pub turned: [bool; 3],
-    /// Which tries are taken.
-    pub taken: Taken,
-    /// Whether x, y and z are u itself, not 2u - 1. No fair reading, as all but [`Taken::Inside`].
-    pub unscaled: bool,
-}
-
-/// Which tries of the emission are taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Taken {
-    /// Those in the ball: the handout's.
-    Inside,
-    /// All of the cube.
-    All,
-    /// Those outside the ball.
-    Outside,
-}
-
 /// Which of the three numbers of a hit is the roulette's, u1 and u2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Draws {
+pub struct HitDraws {
     /// The places of the roulette's number, u1 and u2 among the draws.
     pub order: [usize; 3],
     /// Whether 1 - u1 takes the place of u1.
@@ -60,7 +37,7 @@ pub struct Fair {
     /// The numbers of the emission.
     pub tries: Tries,
     /// The numbers of a hit.
-    pub draws: Draws,
+    pub draws: HitDraws,
     /// The frame around the normal.
     pub frame: Frame,
     /// How that is turned, where it is none of the known ones.
@@ -96,7 +73,7 @@ impl Fair {
     pub fn of(run: &Run) -> Option<Self> {
         Some(Self {
             tries: Tries::REFERENCE,
-            draws: Draws { order: [0, 1, 2], complement: false },
+            draws: HitDraws { order: [0, 1, 2], complement: false },
             frame: Frame::of(&run.reading)?,
             measured: None,
             start: Shift::default(),
@@ -131,7 +108,7 @@ impl Fair {
             ray = self.next_ray(run, &state, sample);
         }
         let tries = tries.into_iter().map(|point| point.to_array()).collect();
-        let emission = Emission { light: light_index, tries, direction: direction.to_array() };
+        let emission = Departure { light: light_index, tries, direction: direction.to_array() };
         Some(Story { photon, seed: run.renderer.seed, emission, hits, ending })
     }
 
@@ -248,40 +225,6 @@ impl Fair {
             Some(name) => format!("offset {name}"),
             None => "offset along the new direction".to_owned(),
         })
-    }
-}
-
-impl Tries {
-    /// The reference's.
-    pub const REFERENCE: Self =
-        Self { order: [0, 1, 2], turned: [false; 3], taken: Taken::Inside, unscaled: false };
-
-    fn takes(&self, point: Vec3) -> bool {
-        let squared = point.length_squared();
-        squared > 0.0
-            && match self.taken {
-                Taken::Inside => squared <= 1.0,
-                Taken::All => true,
-                Taken::Outside => squared > 1.0,
-            }
-    }
-
-    /// The tries, of which the last one is taken.
-    fn until_taken(&self, rand: &mut impl FnMut() -> f32) -> Vec<Vec3> {
-        let mut tries = Vec::new();
-        while tries.last().is_none_or(|point| !self.takes(*point)) {
-            tries.push(self.draw(rand));
-        }
-        tries
-    }
-
-    fn draw(&self, rand: &mut impl FnMut() -> f32) -> Vec3 {
-        let drawn = [0; 3].map(|_| if self.unscaled { rand() } else { 2.0 * rand() - 1.0 });
-        let coordinate = |axis: usize| {
-            let number = drawn[self.order[axis]];
-            if self.turned[axis] { -number } else { number }
-        };
-        Vec3::new(coordinate(0), coordinate(1), coordinate(2))
     }
 }
 

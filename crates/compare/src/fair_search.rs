@@ -6,8 +6,9 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::fair::{Draws, Fair, Tries, normals};
+use crate::fair::{Fair, HitDraws, normals};
 use crate::position_index::PositionIndex;
+use crate::tries::Tries;
 use variants::frame::Frame;
 use variants::run::Run;
 
@@ -108,7 +109,7 @@ impl Search<'_> {
             for order in orders {
                 for signs in 0..8 {
                     let turned = [1, 2, 4].map(|bit| signs & bit != 0);
-                    let draws = Draws { order: roulette, complement: false };
+                    let draws = HitDraws { order: roulette, complement: false };
                     all.push(Fair { tries: Tries { order, turned, ..base.tries }, draws, ..*base });
                 }
             }
@@ -131,7 +132,7 @@ impl Search<'_> {
             for (order, complement) in
                 [([roulette, b, a], false), ([roulette, a, b], true), ([roulette, b, a], true)]
             {
-                let draws = Draws { order, complement };
+                let draws = HitDraws { order, complement };
                 finalists = self.frames(&Fair { draws, ..*base }, &told);
                 if !finalists.is_empty() {
                     break;

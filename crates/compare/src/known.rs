@@ -14,14 +14,14 @@ const PIECE: u64 = 4096;
 
 /// The reference's run, read in a fair way.
 #[derive(Clone, Copy, Debug)]
-pub struct Known<'run> {
+pub struct KnownRun<'run> {
     /// The run.
     pub run: &'run Run,
     /// The fair way; nothing for the run's own.
     pub fair: Option<Fair>,
 }
 
-impl Known<'_> {
+impl KnownRun<'_> {
     /// The story of photon `photon`; nothing when the run has no such photon.
     pub fn story(&self, photon: u64) -> Option<Story> {
         match &self.fair {

@@ -2,8 +2,8 @@
 //!
 //! [`alignment`] pairs the records, [`differences`] counts what the pairs differ in, [`divergence`]
 //! picks the first difference and asks [`verdict`] which [section](variants::section) of the
-//! handout it belongs to, which in turn tries the [`hypotheses`] of what students do instead;
-//! [`whole`] looks at all differences together. [`fair_search`] tries whether another [`fair`] way
+//! handout it belongs to, which in turn tries the
+//! [misreadings](variants::misreadings::directions) of one photon; [`whole`] looks at all differences together. [`fair_search`] tries whether another [`fair`] way
 //! explains the differences, so that [`divergence`] looks at what is left of them. [`conventions`]
 //! undoes other axes and numbers first, and [`numbering`] finds the photons of lists that do not
 //! tell them. [`report`] puts it together; [`pictures`] compares pictures instead.
@@ -17,7 +17,6 @@ pub mod explanation;
 pub mod fair;
 mod fair_offsets;
 pub mod fair_search;
-pub mod hypotheses;
 pub mod known;
 pub mod measured_frame;
 pub mod numbering;
@@ -26,5 +25,6 @@ pub mod pictures;
 pub mod position_index;
 pub mod report;
 mod text;
+mod tries;
 pub mod verdict;
 pub mod whole;

@@ -8,9 +8,10 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::fair::{Fair, Taken, Tries};
+use super::fair::Fair;
 use super::fair_search::LONGEST_OFFSET;
 use super::position_index::PositionIndex;
+use super::tries::{Tries, other_emissions};
 use crate::report::scene_size;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
@@ -44,14 +45,8 @@ pub fn with_photons(run: &Run, list: &PhotonList, reach: f32) -> Option<PhotonLi
         .collect();
     let fair = Fair::of(run)?;
     let reference = Tries::REFERENCE;
-    let emissions = [
-        reference,
-        Tries { order: [2, 1, 0], ..reference },
-        Tries { taken: Taken::All, ..reference },
-        Tries { unscaled: true, ..reference },
-        Tries { taken: Taken::All, unscaled: true, ..reference },
-        Tries { taken: Taken::Outside, ..reference },
-    ];
+    let mut emissions = vec![reference, Tries { order: [2, 1, 0], ..reference }];
+    emissions.extend(other_emissions(reference).into_iter().map(|(tries, _)| tries));
     let found = |photons: &[Option<(u32, u16)>]| {
         photons.iter().flatten().count() as f32 / photons.len() as f32
     };

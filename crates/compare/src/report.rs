@@ -8,7 +8,7 @@ use super::conventions::to_reference;
 use super::differences::{Difference, Differences, count, same_to_light};
 use super::divergence::{Divergence, Lists};
 use super::explanation::{explain_fairly, has_other_draws};
-use super::known::Known;
+use super::known::KnownRun;
 use super::numbering::{REACHES, with_photons};
 use super::numbers::thousands;
 use super::position_index::is_near;
@@ -146,7 +146,7 @@ pub fn compare(
         report.explain(run, reference, submission, compared, few);
     } else {
         let lists = compared.lists(reference, submission);
-        report.add_divergence(&lists, &compared.differing, Some(&Known { run, fair: None }));
+        report.add_divergence(&lists, &compared.differing, Some(&KnownRun { run, fair: None }));
     }
     if report.differences_are_few(USUAL_BY_ROUNDING, records) && !agree {
         report.add_note(
@@ -228,7 +228,7 @@ impl Report {
         compared: Compared,
         few: impl Fn(&Compared) -> bool,
     ) {
-        let known = Known { run, fair: None };
+        let known = KnownRun { run, fair: None };
         let explain = |list: &PhotonList, compared: &Compared| {
             let lists = compared.lists(reference, list);
             let explanation = explain_fairly(&known, &lists, &compared.differing)?;
@@ -305,7 +305,7 @@ impl Report {
         &mut self,
         lists: &Lists,
         differing: &[(Pairing, Difference)],
-        known: Option<&Known>,
+        known: Option<&KnownRun>,
     ) {
         let mut divergence = lists.first_divergence(differing, known);
         if let Some(whole) = known.and_then(|known| judge_whole(lists, differing, known.run)) {

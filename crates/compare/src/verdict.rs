@@ -4,18 +4,19 @@ use glam::{Mat3, Vec3};
 
 use super::fair::Fair;
 use super::fair_search::LONGEST_OFFSET;
-use super::hypotheses::{hypotheses, other_emissions};
-use super::known::Known;
+use super::known::KnownRun;
 use super::position_index::is_near;
+use super::tries::other_emissions;
 use crate::explain::{Ending, Hit, Story};
 use crate::report::scene_size;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::sampling::sample_hemisphere;
+use variants::misreadings::{Numbers, directions};
 use variants::section::Section;
 
 /// What a difference is put down to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
+pub struct Cause {
     /// The section of the handout.
     pub section: Section,
     /// What speaks for it, as a clause.
@@ -26,7 +27,7 @@ pub struct Verdict {
 
 /// One place at which the lists part.
 #[derive(Clone, Copy, Debug)]
-pub struct Observation<'run> {
+pub struct Parting<'run> {
     /// What the reference did.
     pub story: &'run Story,
     /// The bounce of the record that differs.
@@ -38,23 +39,23 @@ pub struct Observation<'run> {
     /// Whether the submission's directions to the light can be trusted.
     pub has_true_to_light: bool,
     /// The reference's run.
-    pub known: &'run Known<'run>,
+    pub known: &'run KnownRun<'run>,
     /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
 }
 
-fn certain(section: Section, reason: impl Into<String>) -> Verdict {
-    Verdict { section, reason: reason.into(), is_certain: true }
+fn certain(section: Section, reason: impl Into<String>) -> Cause {
+    Cause { section, reason: reason.into(), is_certain: true }
 }
 
-fn guess(section: Section, reason: impl Into<String>) -> Verdict {
-    Verdict { section, reason: reason.into(), is_certain: false }
+fn guess(section: Section, reason: impl Into<String>) -> Cause {
+    Cause { section, reason: reason.into(), is_certain: false }
 }
 
-impl Observation<'_> {
+impl Parting<'_> {
     /// A verdict without doubt if the record is this photon's.
-    fn sure(&self, section: Section, reason: impl Into<String>) -> Verdict {
-        Verdict { section, reason: reason.into(), is_certain: self.is_same_photon }
+    fn sure(&self, section: Section, reason: impl Into<String>) -> Cause {
+        Cause { section, reason: reason.into(), is_certain: self.is_same_photon }
     }
 
     /// How far the start of a ray may be from the hit, in world units.
@@ -76,8 +77,8 @@ impl Observation<'_> {
 }
 
 /// Names the section in which the submission did something else than the reference.
-pub fn judge(observation: &Observation) -> Verdict {
-    let Observation { story, bounce, tolerance, .. } = *observation;
+pub fn judge(observation: &Parting) -> Cause {
+    let Parting { story, bounce, tolerance, .. } = *observation;
     let Some(record) = observation.submission else {
         return judge_missing(observation);
     };
@@ -99,7 +100,7 @@ pub fn judge(observation: &Observation) -> Verdict {
             Some(true) => certain(Section::PhotonStorage, reason),
             None if !first.scattered => certain(Section::PhotonStorage, reason),
             // Were direct hits stored, others would show it without doubt.
-            None => Verdict { is_certain: false, ..judge_same_place(observation, first, None) },
+            None => Cause { is_certain: false, ..judge_same_place(observation, first, None) },
         };
     }
     if is_near(record.position, previous.point(), tolerance) && previous.scattered {
@@ -140,7 +141,7 @@ pub fn judge(observation: &Observation) -> Verdict {
 /// Where the scattered ray starts if its position was not set: seen by where it points to, or by
 /// where it goes.
 fn forgotten_start(
-    observation: &Observation,
+    observation: &Parting,
     previous: &Hit,
     comes_from_previous: Option<bool>,
     passes: &dyn Fn(Vec3) -> Option<bool>,
@@ -159,7 +160,7 @@ fn forgotten_start(
     })
 }
 
-fn judge_missing(observation: &Observation) -> Verdict {
+fn judge_missing(observation: &Parting) -> Cause {
     let max_bounces = observation.known.run.renderer.max_photon_bounces;
     if observation.bounce as i64 == i64::from(max_bounces) {
         return guess(
@@ -174,7 +175,7 @@ fn judge_missing(observation: &Observation) -> Verdict {
     )
 }
 
-fn judge_not_finite(previous: &Hit) -> Verdict {
+fn judge_not_finite(previous: &Hit) -> Cause {
     let section = Section::HemisphereRayTransformation;
     let [x, y, z] = previous.normal;
     if x.abs() > 0.99 {
@@ -188,7 +189,7 @@ fn judge_not_finite(previous: &Hit) -> Verdict {
 }
 
 /// Judges a photon that met the surface at `hit` again as soon as it left.
-fn judge_same_place(observation: &Observation, hit: &Hit, to_light: Option<Vec3>) -> Verdict {
+fn judge_same_place(observation: &Parting, hit: &Hit, to_light: Option<Vec3>) -> Cause {
     let below = to_light.map(|to_light| -to_light);
     if let Some(down) = below.filter(|down| down.dot(Vec3::from_array(hit.normal)) < -1e-3) {
         let known = judge_direction(observation, hit, down);
@@ -205,7 +206,7 @@ fn judge_same_place(observation: &Observation, hit: &Hit, to_light: Option<Vec3>
 }
 
 /// The submission's photon came from elsewhere than where the reference's bounced last.
-fn judge_other_origin(observation: &Observation) -> Verdict {
+fn judge_other_origin(observation: &Parting) -> Cause {
     if observation.bounce > 1 {
         return guess(Section::PhotonStorage, "to_light does not point to the hit before");
     }
@@ -217,7 +218,7 @@ fn judge_other_origin(observation: &Observation) -> Verdict {
 
 /// Judges a photon that left the light in another direction; `is_sure` if nothing else can explain
 /// it.
-fn judge_emission(observation: &Observation, is_sure: bool) -> Verdict {
+fn judge_emission(observation: &Parting, is_sure: bool) -> Cause {
     if let Some(known) = known_emission(observation) {
         return known;
     }
@@ -229,12 +230,12 @@ fn judge_emission(observation: &Observation, is_sure: bool) -> Verdict {
     let reason =
         format!("the photon left the light in another direction than the one taken {draws}");
     let is_certain = is_sure && observation.is_same_photon;
-    Verdict { section: Section::PhotonEmission, reason, is_certain }
+    Cause { section: Section::PhotonEmission, reason, is_certain }
 }
 
 /// The misreading of the emission under which the photon is stored just where the submission has
 /// it.
-fn known_emission(observation: &Observation) -> Option<Verdict> {
+fn known_emission(observation: &Parting) -> Option<Cause> {
     let record = observation.submission?;
     let known = observation.known;
     let fair = known.fair()?;
@@ -248,7 +249,7 @@ fn known_emission(observation: &Observation) -> Option<Verdict> {
 }
 
 /// Judges the direction `way`, of any length, in which the submission's photon left `hit`.
-fn judge_direction(observation: &Observation, hit: &Hit, way: Vec3) -> Option<Verdict> {
+fn judge_direction(observation: &Parting, hit: &Hit, way: Vec3) -> Option<Cause> {
     let tolerance = observation.tolerance;
     let (Some(u1), Some(u2), Some(tangent), Some(bitangent), Some(expected)) =
         (hit.u1, hit.u2, hit.tangent, hit.bitangent, hit.direction)
@@ -272,7 +273,8 @@ fn judge_direction(observation: &Observation, hit: &Hit, way: Vec3) -> Option<Ve
     let fits = |hypothesis: &Vec3| {
         hypothesis.try_normalize().is_some_and(|it| it.distance(direction) < allowed)
     };
-    for (section, reason, hypothesis) in hypotheses(frame, local, u1, u2) {
+    let numbers = Numbers { roulette: hit.roulette, u1, u2 };
+    for (section, reason, hypothesis) in directions(frame, numbers) {
         if fits(&hypothesis) {
             return Some(certain(section, reason));
         }

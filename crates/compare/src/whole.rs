@@ -6,7 +6,7 @@ use super::alignment::Pairing;
 use super::differences::Difference;
 use super::divergence::Lists;
 use super::numbers::thousands;
-use super::verdict::Verdict;
+use super::verdict::Cause;
 use variants::run::Run;
 use variants::section::Section;
 
@@ -14,11 +14,7 @@ use variants::section::Section;
 const ENOUGH_BEYOND: usize = 5;
 
 /// The verdict on the lists as a whole, if `differing` fits one, for `run`'s run.
-pub fn judge_whole(
-    lists: &Lists,
-    differing: &[(Pairing, Difference)],
-    run: &Run,
-) -> Option<Verdict> {
+pub fn judge_whole(lists: &Lists, differing: &[(Pairing, Difference)], run: &Run) -> Option<Cause> {
     stored_twice(lists, differing)
         .or_else(|| other_count(lists, differing, run.renderer.emitted()))
         .or_else(|| smaller_limit(lists, differing, run.renderer.max_photon_bounces))
@@ -29,7 +25,7 @@ fn places(differing: &[(Pairing, Difference)]) -> impl Iterator<Item = Pairing> 
     in_place.map(|(pairing, _)| *pairing)
 }
 
-fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Verdict> {
+fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Cause> {
     let Pairing::Extra(first) = places(differing).next()? else { return None };
     let rows: HashSet<_> = lists
         .pairings
@@ -39,7 +35,7 @@ fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Ve
             _ => None,
         })
         .collect();
-    rows.contains(&lists.submission.records[first].to_row()).then(|| Verdict {
+    rows.contains(&lists.submission.records[first].to_row()).then(|| Cause {
         section: Section::PhotonStorage,
         reason: "the photon is stored twice".to_owned(),
         is_certain: true,
@@ -50,7 +46,7 @@ fn smaller_limit(
     lists: &Lists,
     differing: &[(Pairing, Difference)],
     max_bounces: i32,
-) -> Option<Verdict> {
+) -> Option<Cause> {
     let bounce = |place: usize| lists.reference.records[place].bounce;
     let missing: Option<Vec<_>> = places(differing)
         .map(|pairing| match pairing {
@@ -68,7 +64,7 @@ fn smaller_limit(
     if *missing.iter().min()? <= last || i32::from(last) + 1 >= max_bounces {
         return None;
     }
-    Some(Verdict {
+    Some(Cause {
         section: Section::PhotonStorage,
         reason: format!(
             "the submission ends paths after {last} bounces: all that is missing lies beyond"
@@ -77,11 +73,7 @@ fn smaller_limit(
     })
 }
 
-fn other_count(
-    lists: &Lists,
-    differing: &[(Pairing, Difference)],
-    emitted: u64,
-) -> Option<Verdict> {
+fn other_count(lists: &Lists, differing: &[(Pairing, Difference)], emitted: u64) -> Option<Cause> {
     if !(lists.reference.columns.intensity && lists.submission.columns.intensity) {
         return None;
     }
@@ -115,7 +107,7 @@ fn other_count(
             Pairing::Both(..) => false,
         };
     }
-    (beyond && any).then(|| Verdict {
+    (beyond && any).then(|| Cause {
         section: Section::PhotonEmission,
         reason: format!(
             "the submission emits about {} photons, the reference {}: intensities and photons \

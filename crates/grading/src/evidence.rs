@@ -1,7 +1,7 @@
 //! What a submission shows, list or picture, as the one judge takes it: counts in cells.
 
 use super::expected::{Expected, Groups, fit_size};
-use super::kept::{Known, Table};
+use super::kept::{Known, SignatureTable};
 use super::limits::LEAST_DEVIATIONS;
 use variants::hypotheses::Hypothesis;
 
@@ -15,7 +15,7 @@ pub(crate) trait Evidence {
     const LEAST_LIKELY: f64;
 
     /// All hypotheses.
-    fn table(&self) -> &Table<Self::Signature>;
+    fn table(&self) -> &SignatureTable<Self::Signature>;
     /// How many photons were emitted, if that is known.
     fn emitted(&self) -> Option<f64>;
     /// The counts by facet, or by what else is told apart.
@@ -39,6 +39,12 @@ pub(crate) trait Evidence {
 
     /// The chance of what the evidence has besides places; nothing where it has no more.
     fn of_bounces(&self, _: &Known<Self::Signature>, _emitted: f64) -> Option<f64> {
+        None
+    }
+
+    /// The chance of the counts by facet, exactly, under a fair reading; nothing where there are too
+    /// many.
+    fn of_few(&self, _reading: usize) -> Option<f64> {
         None
     }
 

@@ -3,10 +3,13 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
+use rayon::prelude::*;
+
 use super::bounces::{BOUNCES_BY_PLACE, bounce_findings};
 use super::direct::{is_ruled_out, shows_direct};
 use super::evidence::Evidence as _;
 use super::facts::{enough, plain_findings, remarks};
+use super::few::StoredByPaths;
 use super::limits::MOSTLY;
 pub use super::limits::SIGNIFICANCE;
 use super::list::OfList;
@@ -46,18 +49,29 @@ pub struct Expectations {
     pub signatures: Signatures,
     /// What pictures are held against: most classes hand in none.
     pictures: OnceLock<PictureExpectations>,
+    /// What single paths of the fair readings store: most lists are too long for it.
+    paths: OnceLock<Vec<StoredByPaths>>,
 }
 
 impl Expectations {
     /// For photons that may bounce as often as `signatures` says.
     pub fn new(places: Places, signatures: Signatures) -> Self {
-        Self { places, signatures, pictures: OnceLock::new() }
+        Self { places, signatures, pictures: OnceLock::new(), paths: OnceLock::new() }
     }
 
     /// What pictures are held against.
     pub fn pictures(&self) -> &PictureExpectations {
         let new = || PictureExpectations::new(&self.places, self.signatures.max_bounces);
         self.pictures.get_or_init(new)
+    }
+
+    /// What single paths store, by fair reading.
+    pub(crate) fn paths(&self) -> &[StoredByPaths] {
+        let Self { places, signatures, paths, .. } = self;
+        let of_reading = |known: &Known<Signature>| {
+            StoredByPaths::new(&known.hypothesis, places, signatures.max_bounces)
+        };
+        paths.get_or_init(|| signatures.fair.par_iter().map(of_reading).collect())
     }
 
     /// The reference's signature.

@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::statistics::Matrix;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis};
-use variants::pairs::{OTHER_ROULETTE, PAIR};
+use variants::hypotheses::{FAIR, Hypothesis};
 use variants::reading::Reading;
 use variants::variation::Simulation;
 
@@ -20,56 +19,33 @@ const PIECE: u64 = 1 << 16;
 const WAVE: usize = 256;
 /// The seed of the signatures. Submissions that follow our streams have another.
 const SEED: u64 = 0x9_2019;
-/// A bounce fewer shows so little that with fewer photons than this, chance would be most of what
-/// it seems to do.
-const WITH_FEWER_BOUNCES: u64 = 4_000_000;
-
 /// With how many photons signatures are measured.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
+pub(crate) struct Effort {
     /// For the reference and the letter of the handout.
-    pub main: u64,
+    main: u64,
     /// For the other fair readings.
-    pub fair: u64,
-    /// For each misreading that the fast path can trace.
-    pub misreading: u64,
-    /// For each other misreading.
-    pub slow_misreading: u64,
-    /// For each that has no name: two misreadings at once, and other roulettes. With 0, none is
-    /// looked for.
-    pub unnamed: u64,
+    fair: u64,
+    /// For what is not fair.
+    fault: u64,
 }
 
 impl Effort {
-    /// For the signatures that are kept.
-    pub const FULL: Self = Self {
-        main: 100_000_000,
-        fair: 30_000_000,
-        misreading: 4_000_000,
-        slow_misreading: 4_000_000,
-        unnamed: 4_000_000,
-    };
-    /// For a limit of bounces of a course's own, in a few seconds.
-    pub const QUICK: Self = Self {
-        main: 8_000_000,
-        fair: 2_000_000,
-        misreading: 500_000,
-        slow_misreading: 100_000,
-        unnamed: 0,
-    };
+    /// In lists.
+    pub(crate) const OF_LISTS: Self =
+        Self { main: 100_000_000, fair: 30_000_000, fault: 4_000_000 };
+    /// In pictures: with these, a signature is known better than the leeway that a density has.
+    pub(crate) const OF_PICTURES: Self =
+        Self { main: 60_000_000, fair: 12_000_000, ..Self::OF_LISTS };
 
     /// With how many photons `hypothesis` is measured.
-    pub fn photons(&self, hypothesis: &Hypothesis) -> u64 {
+    pub(crate) fn photons(&self, hypothesis: &Hypothesis) -> u64 {
         let reading = hypothesis.variation.reading;
+        let is_main = [Reading::REFERENCE, Reading::LETTER_OF_THE_HANDOUT].contains(&reading);
         match hypothesis.id {
-            FAIR if [Reading::REFERENCE, Reading::LETTER_OF_THE_HANDOUT].contains(&reading) => {
-                self.main
-            }
+            FAIR if is_main => self.main,
             FAIR => self.fair,
-            PAIR | OTHER_ROULETTE => self.unnamed,
-            BOUNCE_OFF_BY_ONE => self.misreading.max(WITH_FEWER_BOUNCES),
-            _ if hypothesis.variation.is_fast() => self.misreading,
-            _ => self.slow_misreading,
+            _ => self.fault,
         }
     }
 }
@@ -85,7 +61,7 @@ pub struct Known<S> {
 
 /// All hypotheses.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table<S> {
+pub struct SignatureTable<S> {
     /// How often photons may bounce.
     pub max_bounces: i32,
     /// The fair readings, the reference's first.
@@ -99,7 +75,7 @@ pub struct Table<S> {
     pub correlation: Matrix,
 }
 
-impl<S> Table<S> {
+impl<S> SignatureTable<S> {
     /// All that is not fair.
     pub(crate) fn faults(&self) -> impl Iterator<Item = &Known<S>> {
         self.misreadings.iter().chain(&self.unnamed)
@@ -111,21 +87,21 @@ pub(crate) type Hypotheses = [Vec<Hypothesis>; 3];
 
 /// Signatures as they are kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Kept<S> {
-    /// See [`Table::correlation`].
+pub struct KeptSignatures<S> {
+    /// See [`SignatureTable::correlation`].
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub correlation: Matrix,
     /// By [`Hypothesis::key`].
     pub of: BTreeMap<String, S>,
 }
 
-impl<S> Default for Kept<S> {
+impl<S> Default for KeptSignatures<S> {
     fn default() -> Self {
         Self { correlation: Matrix::new(), of: BTreeMap::new() }
     }
 }
 
-impl<S: Send> Kept<S> {
+impl<S: Send> KeptSignatures<S> {
     /// Measures with `measure` what is missing of `hypotheses`.
     pub(crate) fn measure_missing(
         &mut self,
@@ -133,7 +109,7 @@ impl<S: Send> Kept<S> {
         effort: Effort,
         measure: impl Fn(&Hypothesis, u64) -> S + Sync,
     ) {
-        let missing = |it: &&Hypothesis| effort.photons(it) > 0 && !self.of.contains_key(&it.key());
+        let missing = |it: &&Hypothesis| !self.of.contains_key(&it.key());
         let missing: Vec<_> = hypotheses.iter().flatten().filter(missing).collect();
         let measured: Vec<_> = (missing.into_par_iter())
             .map(|it| (it.key(), measure(it, effort.photons(it))))
@@ -141,10 +117,9 @@ impl<S: Send> Kept<S> {
         self.of.extend(measured);
     }
 
-    /// The table of `hypotheses`, of which no signature, or every one of each part, is kept.
-    pub(crate) fn table(mut self, max_bounces: i32, hypotheses: Hypotheses) -> Table<S> {
+    /// The table of `hypotheses`, of which every signature is kept.
+    pub(crate) fn table(mut self, max_bounces: i32, hypotheses: Hypotheses) -> SignatureTable<S> {
         let [fair, misreadings, unnamed] = hypotheses.map(|part| {
-            let is_kept = part.iter().any(|hypothesis| self.of.contains_key(&hypothesis.key()));
             let known = |hypothesis: Hypothesis| {
                 let key = hypothesis.key();
                 let signature = self.of.remove(&key);
@@ -152,9 +127,9 @@ impl<S: Send> Kept<S> {
                     signature.unwrap_or_else(|| panic!("no signature is kept for '{key}'"));
                 Known { hypothesis, signature }
             };
-            if is_kept { part.into_iter().map(known).collect() } else { Vec::new() }
+            part.into_iter().map(known).collect()
         });
-        Table { max_bounces, fair, misreadings, unnamed, correlation: self.correlation }
+        SignatureTable { max_bounces, fair, misreadings, unnamed, correlation: self.correlation }
     }
 }
 

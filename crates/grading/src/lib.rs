@@ -20,23 +20,24 @@
 //! well nor those of two at once ([`variants::pairs`]), which are told without a name.
 //! `golden/grading.md` has what all of this achieves.
 
-pub mod axes;
-pub mod bounces;
+mod axes;
+mod bounces;
 pub mod class;
 pub mod crowding;
-pub mod direct;
+mod direct;
 mod evidence;
-pub mod exact;
+mod exact;
 pub mod expected;
 mod facts;
+mod few;
 pub mod gradescope;
 pub mod intake;
 pub mod judge_list;
-pub mod kept;
+mod kept;
 mod limits;
 mod list;
-pub mod naming;
-pub mod number;
+mod naming;
+mod number;
 pub mod observation;
 mod own;
 pub mod page;
@@ -45,6 +46,7 @@ pub mod places;
 pub mod policy;
 mod repeats;
 mod self_hits;
+pub mod short;
 pub mod signature;
 pub mod statistics;
 pub mod submission;

@@ -1,9 +1,13 @@
 //! Where the judge draws its lines: each by an error rate, a resolution, or a measurement.
 
+use std::ops::RangeInclusive;
+
 // Error rates.
 
-/// A submission that is as strange as this by chance alone is called incorrect. Of ten thousand
-/// submissions that are correct, one may be; a tenth of that leaves room for what the tests assume.
+/// A submission that is as strange as this by chance alone is called incorrect, in its places, on the
+/// way to a misreading, or in its marks. Of ten thousand submissions that are correct, one may be;
+/// these tests and their two parts, with the number of photons and without, add up to half of
+/// that. The rest leaves room for what they assume.
 pub const SIGNIFICANCE: f64 = 1e-5;
 /// A list with which a misreading would show what is seen, or something stranger, less often than
 /// this is not explained by it.
@@ -55,9 +59,15 @@ pub(crate) const LEEWAY_OF_COVERAGE: f64 = 0.02;
 
 // Resolutions.
 
+/// So many standard deviations is a misreading away where a test of its own is needed. Closer, it is
+/// seen once in 20 times; farther, a test of 72 cells sees it 999 times in 1000.
+pub(crate) const NEEDED: RangeInclusive<f64> = 3.0..=14.0;
+
 /// Counts are joined until they are expected to be so many standard deviations from none, and from
 /// all that there can be: below, they are too far from normal. Of photons, 25.
 pub(crate) const LEAST_DEVIATIONS: f64 = 5.0;
+/// As many photons are few: the number on each facet is tested exactly.
+pub(crate) const FEW_PHOTONS: usize = 125;
 /// Of more bounces than these, hardly a path has the last.
 pub(crate) const SMALL_LIMIT: i32 = 12;
 /// When as large a part of all photons is at the same place as another one, self-hits are looked

@@ -4,8 +4,8 @@ use super::bounces::of_each_bounce;
 use super::evidence::{Evidence, Words};
 use super::expected::Expected;
 use super::judge_list::Expectations;
-use super::kept::{Known, Table};
-use super::limits::{ALL_COPIED, LEAST_LIKELY, MANY_REPEATED, SMALL_LIMIT, SUREST};
+use super::kept::{Known, SignatureTable};
+use super::limits::{ALL_COPIED, FEW_PHOTONS, LEAST_LIKELY, MANY_REPEATED, SMALL_LIMIT, SUREST};
 use super::naming::{Explanation, candidates, most_likely};
 use super::observation::Observation;
 use super::self_hits::{explain_by_self_hits, shows_self_hits};
@@ -34,7 +34,7 @@ impl Evidence for OfList<'_> {
     };
     const LEAST_LIKELY: f64 = LEAST_LIKELY;
 
-    fn table(&self) -> &Table<Signature> {
+    fn table(&self) -> &SignatureTable<Signature> {
         &self.expectations.signatures
     }
 
@@ -109,6 +109,12 @@ impl Evidence for OfList<'_> {
         let Expectations { signatures, places, .. } = self.expectations;
         let (allowed, signature) = (signatures.max_bounces, &known.signature);
         Some(of_each_bounce(by_bounce, allowed, emitted, false, signature, places))
+    }
+
+    fn of_few(&self, reading: usize) -> Option<f64> {
+        let counts = self.of_facets();
+        let is_few = counts.iter().sum::<f64>() <= FEW_PHOTONS as f64;
+        is_few.then(|| self.expectations.paths()[reading].p_value(&counts))?
     }
 
     fn other_lengths(&self, known: &Known<Signature>, emitted: f64) -> Vec<Vec<f64>> {

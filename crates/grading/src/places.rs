@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::limits::LEEWAY;
+use model::facets::Footprint;
 use photon_mapping::scene::Scene;
 
 /// How far off its surface a stored position may be, in world units: the handout does not say where
@@ -63,14 +64,8 @@ pub struct Places {
     pub cells: usize,
     /// The facet of each.
     pub facet_of_cell: Vec<usize>,
-    /// For each box that stands on a facet: that facet, and the inward half planes of its foot.
-    footprints: Vec<Footprint>,
-}
-
-#[derive(Clone, Debug)]
-struct Footprint {
-    floor: usize,
-    corners: Vec<DVec3>,
+    /// For each box that stands on a facet: that facet, and what it covers of it.
+    footprints: Vec<(usize, Footprint)>,
 }
 
 impl Facet {
@@ -153,7 +148,7 @@ impl Places {
             scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()).collect();
         let cells_of = |(at, facet): (usize, &Facet)| vec![at; facet.divisions * facet.divisions];
         let facet_of_cell = facets.iter().enumerate().flat_map(cells_of).collect();
-        let footprints = footprints(&facets, surfaces.len());
+        let footprints = footprints(scene, &facets);
         Self { facets, surfaces, cells, facet_of_cell, footprints }
     }
 
@@ -189,8 +184,10 @@ impl Places {
         if self.facets.iter().enumerate().any(is_close) {
             return Place::Corner { facet };
         }
-        let is_under = |footprint: &&Footprint| footprint.floor == facet && footprint.holds(foot);
-        if self.footprints.iter().find(is_under).is_some() {
+        let is_under = |(floor, footprint): &(usize, Footprint)| {
+            *floor == facet && footprint.holds(foot.truncate())
+        };
+        if self.footprints.iter().any(is_under) {
             return Place::Footprint;
         }
         Place::Cell { facet, cell: on.cell(foot) }
@@ -247,37 +244,13 @@ impl Places {
     }
 }
 
-impl Footprint {
-    fn holds(&self, point: DVec3) -> bool {
-        let count = self.corners.len();
-        let middle = self.corners.iter().sum::<DVec3>() / count as f64;
-        (0..count).all(|corner| {
-            let (a, b) = (self.corners[corner], self.corners[(corner + 1) % count]);
-            let edge = b - a;
-            let side = |p: DVec3| edge.x * (p.y - a.y) - edge.y * (p.x - a.x);
-            side(point) * side(middle) > 0.0
-        })
-    }
-}
-
-/// Where a mesh object with several facets stands on the one facet that looks up and lies under it:
-/// the scene's up is z.
-fn footprints(facets: &[Facet], surfaces: usize) -> Vec<Footprint> {
-    let mut footprints = Vec::new();
-    for surface in 0..surfaces {
-        let of_surface = |facet: &&Facet| facet.surface == surface;
-        let top = facets.iter().filter(of_surface).find(|facet| facet.normal.z > 0.9);
-        let (Some(top), true) = (top, facets.iter().filter(of_surface).count() > 1) else {
-            continue;
-        };
-        let is_floor = |facet: &Facet| facet.surface != surface && facet.normal.z > 0.9;
-        for floor in (0..facets.len()).filter(|at| is_floor(&facets[*at])) {
-            let drop = |corner: DVec3| corner - facets[floor].height(corner) * facets[floor].normal;
-            let corners: Vec<_> = top.corners.map(drop).into();
-            if corners.iter().all(|corner| facets[floor].distance(*corner) < 1e-6) {
-                footprints.push(Footprint { floor, corners });
-            }
-        }
-    }
-    footprints
+/// What boxes cover of the facets that look up, which is where z is: each with that facet's number.
+fn footprints(scene: &Scene, facets: &[Facet]) -> Vec<(usize, Footprint)> {
+    let count = |surface| facets.iter().filter(|facet| facet.surface == surface).count();
+    let boxes = (0..scene.mesh_objects().len()).filter(|surface| count(*surface) > 1);
+    let looks_up = |at: &usize| facets[*at].normal.z > 0.9 && count(facets[*at].surface) == 1;
+    let floors: Vec<usize> = (0..facets.len()).filter(looks_up).collect();
+    let of_box = |surface| floors.iter().map(move |floor| (*floor, surface));
+    let footprints = boxes.flat_map(of_box);
+    footprints.map(|(floor, surface)| (floor, Footprint::of_box(scene, surface))).collect()
 }

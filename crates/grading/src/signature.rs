@@ -3,13 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::expected::{Expected, fit_size};
-pub use super::kept::{Effort, Kept, Known, Table};
-use super::kept::{Hypotheses, Sums, add, add_matrix, sum};
+use super::kept::{Effort, Hypotheses, Sums, add, add_matrix, sum};
+pub use super::kept::{KeptSignatures, Known, SignatureTable};
 use super::limits::{LEEWAY, LEEWAY_OF_CORNERS};
 use super::observation::{BOUNCES, Counts};
 use super::places::Places;
+use super::short::pairs_of;
 use super::statistics::Matrix;
-use photon_mapping::assignment8;
+use photon_mapping::assignment8::MAX_PHOTON_BOUNCES;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings};
 use variants::pairs::unnamed;
@@ -33,43 +34,36 @@ pub struct Signature {
 }
 
 /// The signatures of all hypotheses.
-pub type Signatures = Table<Signature>;
+pub type Signatures = SignatureTable<Signature>;
 
-fn hypotheses() -> Hypotheses {
+pub(crate) fn hypotheses() -> Hypotheses {
     [fair_readings(), misreadings(), unnamed()]
 }
 
-impl Kept<Signature> {
+impl KeptSignatures<Signature> {
     /// Those of the assignment as it stands: a test measures some of them again.
     pub fn of_assignment8() -> Self {
         serde_json::from_str(include_str!("../golden/signatures-of-lists.json"))
             .expect("the signatures that are part of the program are well formed")
     }
 
-    /// Measures what is missing, for photons that may bounce `max_bounces` times.
-    pub fn complete(&mut self, places: &Places, max_bounces: i32, effort: Effort) {
-        let measure = |it: &Hypothesis, photons| measure(it, places, photons, max_bounces);
+    /// Measures what is missing.
+    pub fn complete(&mut self, places: &Places) {
+        let measure = |it: &Hypothesis, photons| measure(it, places, photons, MAX_PHOTON_BOUNCES);
         let reference = &fair_readings()[0];
         if self.correlation.is_empty() {
-            let (signature, of_cells) = measure(reference, effort.photons(reference));
+            let (signature, of_cells) = measure(reference, Effort::OF_LISTS.photons(reference));
             self.correlation = correlate(&of_cells);
             self.of.insert(reference.key(), signature);
         }
-        self.measure_missing(&hypotheses(), effort, |it, photons| measure(it, photons).0);
+        self.measure_missing(&hypotheses(), Effort::OF_LISTS, |it, photons| measure(it, photons).0);
     }
 }
 
 impl Signatures {
     /// Those of the assignment as it stands, measured beforehand.
     pub fn of_assignment8() -> Self {
-        Kept::<Signature>::of_assignment8().table(assignment8::MAX_PHOTON_BOUNCES, hypotheses())
-    }
-
-    /// Measures all signatures for photons that may bounce `max_bounces` times.
-    pub fn measure(places: &Places, max_bounces: i32, effort: Effort) -> Self {
-        let mut kept = Kept::default();
-        kept.complete(places, max_bounces, effort);
-        kept.table(max_bounces, hypotheses())
+        KeptSignatures::<Signature>::of_assignment8().table(MAX_PHOTON_BOUNCES, hypotheses())
     }
 }
 
@@ -79,6 +73,11 @@ impl Signature {
         let covariance = |a: usize, b: usize| self.covariance[a][b];
         let leeway = leeway_of_classes(self.classes.len());
         Expected::of_paths(&self.classes, covariance, self.emitted, &leeway, emitted)
+    }
+
+    /// The mean number of pairs of photons of one path on two classes.
+    pub(crate) fn pairs(&self, a: usize, b: usize) -> f64 {
+        pairs_of(self.covariance[a][b], self.classes[a], self.classes[b], a == b)
     }
 
     /// How many photons emitted fit `counts` of classes best.

@@ -10,17 +10,19 @@ use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::{Counts, Observation, observe};
 use grading::places::{Place, Places};
 use grading::policy::Policy;
-use grading::signature::{Effort, Signatures, classes, measure};
+use grading::signature::{Signature, Signatures, classes, measure};
 use grading::statistics::{corrected, normal_tails};
 use grading::verdict::{Finding, Verdict, Weight};
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
-use photon_list::record::Columns;
+use photon_list::record::{ABSENT, Columns};
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use rayon::prelude::*;
-use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset, to_the_letter};
+use variants::hypotheses::{
+    BOUNCE_OFF_BY_ONE, Hypothesis, fair_readings, misreadings, no_offset, to_the_letter,
+};
 use variants::pairs::pairs;
 use variants::reading::Reading;
 use variants::variation::{Hemisphere, Roulette, Simulation, Storage, Variation};
@@ -86,6 +88,70 @@ fn kept_signatures_are_those_of_the_tracer() {
         assert_eq!(*hypothesis, kept.hypothesis);
         check(hypothesis, &kept.signature, 40_000);
     }
+}
+
+#[test]
+fn signatures_of_a_limit_are_those_of_the_tracer() {
+    for max_bounces in [1, 2, 3, 7, 15] {
+        let table = Signatures::of_limit(&PLACES, max_bounces);
+        let ids = ["direct-stored", "mean-roulette", BOUNCE_OFF_BY_ONE, "third-hit-on"];
+        let first = |id| table.misreadings.iter().find(|known| known.hypothesis.id == id);
+        let of_ids = ids.into_iter().filter_map(first);
+        for known in of_ids.chain([&table.fair[0], &table.fair[1]]) {
+            let emitted = 100_000;
+            let (measured, _) = measure(&known.hypothesis, &PLACES, emitted, max_bounces);
+            let counts = |means: &[f64]| -> Vec<f64> {
+                means.iter().map(|mean| mean * emitted as f64).collect()
+            };
+            let expected = known.signature.of_classes(emitted as f64);
+            let exact = Expected { slack: vec![0.0; expected.mean.len()], ..expected };
+            let p_value = exact.law(false).fit(&counts(&measured.classes)).p_value;
+            let title = &known.hypothesis.title;
+            assert!(p_value > 1e-6, "{max_bounces}, {title}: {p_value:e}");
+            for (bounce, of_bounce) in measured.by_bounce.iter().enumerate() {
+                let expected = known.signature.of_bounce(bounce, emitted as f64);
+                let p_value = expected.law(false).fit(&counts(of_bounce)).p_value;
+                assert!(p_value > 1e-6, "{max_bounces}, {title}, {bounce}: {p_value:e}");
+            }
+        }
+        // The spread of the total, which pairs of photons of one path widen.
+        let spread = |signature: &Signature| {
+            let all = signature.covariance.iter().flatten().sum::<f64>();
+            (all / signature.classes.iter().sum::<f64>()).sqrt()
+        };
+        let (of_reference, _) = measure(&fair_readings()[0], &PLACES, 400_000, max_bounces);
+        let [kept, again] = [&table.fair[0].signature, &of_reference].map(spread);
+        assert!((kept / again - 1.0).abs() < 0.02, "{max_bounces}: {kept} {again}");
+    }
+}
+
+#[test]
+fn few_photons_are_tested_exactly() {
+    let judged = |positions: Vec<Vec3>| {
+        let records = positions.into_iter().map(|position| PhotonRecord { position, ..ABSENT });
+        let observation = observed(records.collect(), Columns::default());
+        judge(&observation, None, false, &EXPECTATIONS)
+    };
+    let facets = |judgement: &Judgement| {
+        let facets = judgement.findings.iter().find(|finding| finding.check == "facets");
+        facets.and_then(|facets| facets.p_value).expect("they are tested")
+    };
+    // All on the floor, and spread over it.
+    let mut rand = photon_random(5, 5);
+    let mut on_floor = |count: usize| -> Vec<Vec3> {
+        (0..count).map(|_| Vec3::new(-0.8 + 0.2 * rand(), 1.8 * rand() - 0.9, 0.0)).collect()
+    };
+    for count in [12, 20, 60, 120] {
+        assert!(facets(&judged(on_floor(count))) < SIGNIFICANCE, "{count}");
+    }
+    assert!(facets(&judged(on_floor(4))) > 1e-4);
+    // Those of right programs follow their law.
+    let smallest = (0..300).map(|seed| {
+        let positions = records(Variation::default(), 20_000 + seed, 500 + 5 * seed);
+        facets(&judged(positions.iter().map(|record| record.position).collect()))
+    });
+    let below = smallest.filter(|p_value| *p_value < 0.01).count();
+    assert!(below <= 6, "{below} of 300");
 }
 
 #[test]
@@ -258,7 +324,7 @@ fn misreadings_are_named_from_positions_alone() {
 
 #[test]
 fn a_missing_last_bounce_is_seen_where_the_limit_is_small() {
-    let signatures = Signatures::measure(&PLACES, 3, Effort::QUICK);
+    let signatures = Signatures::of_limit(&PLACES, 3);
     let expectations = Expectations::new(PLACES.clone(), signatures);
     let columns = Columns { bounce: true, ..Columns::default() };
     let judged = |fewer_bounces| {
@@ -400,7 +466,7 @@ fn a_frame_left_at_zero_sends_photons_along_the_normal() {
 
 #[test]
 fn a_bounce_too_few_is_seen_in_the_number_of_photons() {
-    let signatures = Signatures::measure(&PLACES, 2, Effort::QUICK);
+    let signatures = Signatures::of_limit(&PLACES, 2);
     let expectations = Expectations::new(PLACES.clone(), signatures);
     let judged = |fewer_bounces, emitted| {
         let variation = Variation { fewer_bounces, ..Variation::default() };

@@ -15,7 +15,7 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use rayon::prelude::*;
 use variants::variation::{
-    Emission, Frame, Hemisphere, Roulette, Simulation, Start, Storage, Variation,
+    Emission, Hemisphere, Roulette, Simulation, Start, Storage, Transformation, Variation,
 };
 
 const EMITTED: u64 = 200_000;
@@ -80,7 +80,11 @@ fn steps() -> Vec<(&'static str, Variation)> {
         ),
         (
             "half round, not transformed",
-            Variation { hemisphere: Hemisphere::HalfAzimuth, frame: Frame::Forgotten, ..plain },
+            Variation {
+                hemisphere: Hemisphere::HalfAzimuth,
+                frame: Transformation::Forgotten,
+                ..plain
+            },
         ),
         (
             "from the light, even hemisphere",

@@ -70,7 +70,7 @@ impl Roulette {
 
 /// What becomes of the matrix from tangent space to world space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Frame {
+pub enum Transformation {
     /// Its columns are t, b and n.
     #[default]
     AsRead,
@@ -149,7 +149,7 @@ pub struct Variation {
     /// How a direction over the surface is sampled.
     pub hemisphere: Hemisphere,
     /// What becomes of the matrix to world space.
-    pub frame: Frame,
+    pub frame: Transformation,
     /// Where scattered rays start.
     pub start: Start,
     /// Which hits are stored.
@@ -196,7 +196,7 @@ impl Variation {
     pub fn goes_below(&self) -> bool {
         self.flipped_normal
             || self.reading.tangent_basis == TangentBasis::Transposed
-            || matches!(self.frame, Frame::Forgotten | Frame::Columns(_))
+            || matches!(self.frame, Transformation::Forgotten | Transformation::Columns(_))
             || self.hemisphere.goes_below()
             || self.start != Start::Hit
     }
@@ -205,13 +205,13 @@ impl Variation {
     pub fn tangent_frame(&self, normal: Vec3) -> Mat3 {
         let read = self.reading.tangent_frame(normal);
         match self.frame {
-            Frame::AsRead => read,
-            Frame::Forgotten => Mat3::IDENTITY,
-            Frame::Columns(columns) => {
+            Transformation::AsRead => read,
+            Transformation::Forgotten => Mat3::IDENTITY,
+            Transformation::Columns(columns) => {
                 let [x, y, z] = columns.map(|column| read.col(column));
                 Mat3::from_cols(x, y, z)
             }
-            Frame::HalfNormalised => {
+            Transformation::HalfNormalised => {
                 let letter =
                     Reading { tangent_basis: TangentBasis::LetterOfTheHandout, ..self.reading };
                 let written = letter.tangent_frame(normal);

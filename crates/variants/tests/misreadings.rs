@@ -2,11 +2,14 @@
 
 use std::collections::HashSet;
 
+use glam::Vec3;
 use photon_mapping::photon_list::PhotonRecord;
+use photon_mapping::rendering::sampling::sample_hemisphere;
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, misreadings};
-use variants::misreadings::table;
+use variants::misreadings::{Numbers, directions, table};
 use variants::pairs::pairs;
-use variants::variation::{Simulation, Variation};
+use variants::reading::{Reading, TangentBasis};
+use variants::variation::{Hemisphere, Simulation, Transformation, Variation};
 
 const EMITTED: u64 = 20_000;
 
@@ -60,4 +63,35 @@ fn the_plain_variation_is_the_reference_on_the_slow_path_too() {
     };
     let fast = Simulation::new(Variation::default(), 3, EMITTED, 1000).trace(0..2000);
     assert_eq!(traced(3), fast);
+}
+
+#[test]
+fn one_photon_tells_misreadings_of_its_direction() {
+    let numbers = Numbers { roulette: 0.4, u1: 0.3, u2: 0.85 };
+    let right = sample_hemisphere(numbers.u1, numbers.u2);
+    for normal in [Vec3::NEG_X, Vec3::new(0.28, -0.96, 0.0).normalize()] {
+        let frame = Reading::REFERENCE.tangent_frame(normal);
+        let expected = (frame * right).normalize();
+        let told = directions(frame, numbers);
+        for misreading in misreadings() {
+            let Variation { hemisphere, frame: transformation, reading, .. } = misreading.variation;
+            let is_literal = reading.tangent_basis == TangentBasis::LetterOfTheHandout;
+            let is_sampled = hemisphere != Hemisphere::Cosine && hemisphere.uses_frame();
+            let is_turned = transformation != Transformation::AsRead
+                || reading.tangent_basis == TangentBasis::Transposed
+                || misreading.variation.flipped_normal;
+            if is_literal || !(is_sampled || is_turned) {
+                continue;
+            }
+            let mut of_it = told.iter().filter(|(_, title, _)| *title == misreading.title);
+            let (section, _, direction) = of_it.next().expect("every misreading is told");
+            assert_eq!(Some(*section), misreading.misreading.map(|it| it.section));
+            // On the wall, t and b as they are written have length 1, and the matrix is symmetric.
+            let is_same = is_turned && normal.x == -1.0;
+            let apart = direction.normalize().distance(expected);
+            assert!(is_same || apart > 1e-2, "{normal}: {}", misreading.title);
+        }
+        let along = told.iter().any(|(_, title, _)| title.contains("leave the right wall along"));
+        assert_eq!(along, normal.x == -1.0);
+    }
 }

@@ -22,14 +22,11 @@ use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
 use grading::page::Pages;
 use grading::places::Places;
-use grading::signature::{Effort, Signatures};
+use grading::signature::Signatures;
 use grading::submission::Settings;
 use photon_mapping::assignment8;
 pub use policy::read as policy;
 use standard_input::{STANDARD_INPUT, StandardInput};
-
-/// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
-const MANY_BOUNCES: i32 = 20;
 
 /// The options of `grade`.
 #[derive(Debug, Args)]
@@ -228,13 +225,6 @@ fn progress(count: usize) -> ProgressBar {
 /// What the submissions are held against.
 pub fn expectations(max_bounces: i32) -> Expectations {
     let places = Places::new(&assignment8::create_scene());
-    let signatures = if max_bounces >= MANY_BOUNCES {
-        Signatures::of_assignment8()
-    } else {
-        if std::io::stderr().is_terminal() {
-            eprintln!("measuring what is expected of at most {max_bounces} bounces ...");
-        }
-        Signatures::measure(&places, max_bounces, Effort::QUICK)
-    };
+    let signatures = Signatures::of_limit(&places, max_bounces);
     Expectations::new(places, signatures)
 }

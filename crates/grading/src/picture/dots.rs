@@ -29,7 +29,7 @@ const SAME_VIEW: f64 = 0.8;
 
 /// The dots of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Dots {
+pub struct FoundDots {
     /// By pixel: whether it has one.
     pub red: Vec<bool>,
     /// Whether its rays go through the middles of pixels, half a pixel off the framework's.
@@ -64,7 +64,7 @@ pub fn find_dots<'a>(
     picture: &RgbImage,
     view: &'a View,
     shifted: impl FnOnce() -> &'a View,
-) -> Result<Dots, String> {
+) -> Result<FoundDots, String> {
     let pixels: &[[u8; 3]] = picture.as_raw().as_chunks().0;
     let surface = (0..PIXELS).filter(|pixel| view.shows_surface(*pixel)).count() as f64;
     let is_few = |attempt: &Attempt, part: f64| attempt.astray as f64 <= part * surface;
@@ -115,7 +115,7 @@ pub fn find_dots<'a>(
         };
         remarks.push(remark(check, expected, found));
     }
-    Ok(Dots { red: best.red, is_shifted, remarks })
+    Ok(FoundDots { red: best.red, is_shifted, remarks })
 }
 
 fn remark(check: &'static str, expected: &str, found: String) -> Finding {

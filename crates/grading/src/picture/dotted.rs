@@ -6,7 +6,7 @@ use super::signature::PictureSignature;
 use super::view::View;
 use crate::evidence::{Evidence, Words};
 use crate::expected::{Expected, Groups};
-use crate::kept::{Known, Table};
+use crate::kept::{Known, SignatureTable};
 use crate::limits::{LEAST_LIKELY_IN_PICTURES, LEEWAY_OF_COVERAGE, LEEWAY_OF_SELF_HITS};
 use variants::hypotheses::Hypothesis;
 
@@ -32,7 +32,7 @@ impl Evidence for OfPicture<'_> {
     };
     const LEAST_LIKELY: f64 = LEAST_LIKELY_IN_PICTURES;
 
-    fn table(&self) -> &Table<PictureSignature> {
+    fn table(&self) -> &SignatureTable<PictureSignature> {
         &self.expectations.signatures
     }
 

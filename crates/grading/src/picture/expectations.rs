@@ -5,10 +5,6 @@ use std::sync::OnceLock;
 use super::signature::PictureSignatures;
 use super::view::View;
 use crate::places::Places;
-use crate::signature::Effort;
-
-/// With more bounces allowed, hardly a path ends by the limit, and the signatures kept are right.
-const MANY_BOUNCES: i32 = 20;
 
 /// All that pictures are held against.
 #[derive(Clone, Debug)]
@@ -28,15 +24,10 @@ pub struct PictureExpectations {
 }
 
 impl PictureExpectations {
-    /// What is expected of photons that may bounce `max_bounces` times: at once for many bounces,
-    /// else measured.
+    /// What is expected of photons that may bounce `max_bounces` times.
     pub fn new(places: &Places, max_bounces: i32) -> Self {
         let view = View::new(places);
-        let signatures = if max_bounces >= MANY_BOUNCES {
-            PictureSignatures::of_assignment8(places)
-        } else {
-            PictureSignatures::measure(places, &view, max_bounces, Effort::QUICK)
-        };
+        let signatures = PictureSignatures::of_limit(places, &view, max_bounces);
         let is_askew = |facet: &usize| places.facets[*facet].normal.abs().max_element() < 0.99;
         Self {
             leeway: view.cells.iter().map(|cell| places.leeway_of_cell(*cell)).collect(),

@@ -1,6 +1,6 @@
 //! The checks of a picture: are its dots where photons lie?
 
-pub mod coverage;
+mod coverage;
 pub mod dot_size;
 pub mod dots;
 mod dotted;

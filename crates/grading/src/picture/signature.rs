@@ -3,8 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::view::View;
-use crate::kept::{Effort, Hypotheses, Kept, Sums, Table, add, add_matrix, sum};
+use crate::kept::{
+    Effort, Hypotheses, KeptSignatures, Known, SignatureTable, Sums, add, add_matrix, sum,
+};
 use crate::places::Places;
+use crate::short::MANY_BOUNCES;
+use crate::signature::Signatures;
 use crate::statistics::Matrix;
 use photon_mapping::assignment8::MAX_PHOTON_BOUNCES;
 use photon_mapping::photon_list::PhotonRecord;
@@ -31,43 +35,64 @@ pub struct PictureSignature {
 }
 
 /// The signatures of all hypotheses, for a view without a shift.
-pub type PictureSignatures = Table<PictureSignature>;
+pub type PictureSignatures = SignatureTable<PictureSignature>;
 
 fn hypotheses(places: &Places) -> Hypotheses {
     [fair_readings(), known_misreadings(places), known_pairs(places)]
 }
 
-impl Kept<PictureSignature> {
+impl KeptSignatures<PictureSignature> {
     /// Those of pictures of the assignment as it stands: a test measures some of them again.
     pub fn of_pictures() -> Self {
         serde_json::from_str(include_str!("../../golden/signatures-of-pictures.json"))
             .expect("the signatures that are part of the program are well formed")
     }
 
-    /// Measures what is missing, for photons that may bounce `max_bounces` times.
-    pub fn complete_pictures(
-        &mut self,
-        places: &Places,
-        view: &View,
-        max_bounces: i32,
-        effort: Effort,
-    ) {
-        let measure = |it: &Hypothesis, photons| measure(it, view, photons, max_bounces);
-        self.measure_missing(&hypotheses(places), effort, measure);
+    /// Measures what is missing.
+    pub fn complete_pictures(&mut self, places: &Places, view: &View) {
+        let measure = |it: &Hypothesis, photons| measure(it, view, photons, MAX_PHOTON_BOUNCES);
+        self.measure_missing(&hypotheses(places), Effort::OF_PICTURES, measure);
     }
 }
 
 impl PictureSignatures {
     /// Those of the assignment as it stands, measured beforehand.
     pub fn of_assignment8(places: &Places) -> Self {
-        Kept::of_pictures().table(MAX_PHOTON_BOUNCES, hypotheses(places))
+        KeptSignatures::of_pictures().table(MAX_PHOTON_BOUNCES, hypotheses(places))
     }
 
-    /// Measures all signatures for photons that may bounce `max_bounces` times.
-    pub fn measure(places: &Places, view: &View, max_bounces: i32, effort: Effort) -> Self {
-        let mut kept = Kept::default();
-        kept.complete_pictures(places, view, max_bounces, effort);
-        kept.table(max_bounces, hypotheses(places))
+    /// Those of photons that may bounce `max_bounces` times: within a cell, a limit takes the same
+    /// part of photons everywhere.
+    pub fn of_limit(places: &Places, view: &View, max_bounces: i32) -> Self {
+        let all = Self::of_assignment8(places);
+        if max_bounces >= MANY_BOUNCES {
+            return all;
+        }
+        let [long, short] = [MANY_BOUNCES, max_bounces].map(|it| Signatures::of_limit(places, it));
+        let find = |table: &Signatures, hypothesis: &Hypothesis| {
+            let mut all = table.fair.iter().chain(&table.misreadings);
+            let found = all.find(|known| known.hypothesis.key() == hypothesis.key());
+            // Self-hits bounce once more, about as often everywhere.
+            found.unwrap_or(&table.fair[0]).signature.clone()
+        };
+        let shorten = |mut known: Known<PictureSignature>| {
+            let [of_long, of_short] = [&long, &short].map(|table| find(table, &known.hypothesis));
+            for (red, patch) in known.signature.red.iter_mut().zip(&view.patches) {
+                let cell = view.cells[patch.cell];
+                *red *= of_short.cells[cell] / of_long.cells[cell].max(f64::MIN_POSITIVE);
+            }
+            let facets = view.facets.iter().enumerate();
+            for (f, a) in facets.clone() {
+                for (g, b) in facets.clone() {
+                    let [all, left] = [&of_long, &of_short].map(|it| it.pairs(*a, *b));
+                    known.signature.pairs[f][g] *= left / all.max(f64::MIN_POSITIVE);
+                }
+            }
+            known
+        };
+        let shorten = |known: Vec<Known<_>>| known.into_iter().map(shorten).collect();
+        let [fair, misreadings] = [all.fair, all.misreadings].map(shorten);
+        Self { max_bounces, fair, misreadings, unnamed: Vec::new(), correlation: all.correlation }
     }
 }
 

@@ -4,7 +4,7 @@ use super::Entry;
 use crate::reading::{Reading, TangentBasis};
 use crate::sampling::Hemisphere;
 use crate::section::Section;
-use crate::variation::{Frame, Start, Variation};
+use crate::variation::{Start, Transformation, Variation};
 
 pub(super) fn sampling() -> Vec<Entry> {
     let of = |hemisphere| Variation { hemisphere, ..Variation::default() };
@@ -128,7 +128,7 @@ pub(super) fn transformation() -> Vec<Entry> {
     let transposed = Reading { tangent_basis: TangentBasis::Transposed, ..Reading::REFERENCE };
     let of_frame = |frame| Variation { frame, ..Variation::default() };
     let of_start = |start| Variation { start, ..Variation::default() };
-    let columns = |columns| of_frame(Frame::Columns(columns));
+    let columns = |columns| of_frame(Transformation::Columns(columns));
     vec![
         Entry::new(
             "no-absolute-value",
@@ -169,7 +169,7 @@ pub(super) fn transformation() -> Vec<Entry> {
             section,
             "Normalize both t and b, or neither: one of them alone squeezes directions to one \
              side.",
-            [("b is normalized, and t is not", of_frame(Frame::HalfNormalised))],
+            [("b is normalized, and t is not", of_frame(Transformation::HalfNormalised))],
         ),
         Entry::new(
             "transposed-frame",
@@ -193,7 +193,7 @@ pub(super) fn transformation() -> Vec<Entry> {
             "not-transformed",
             section,
             "The sampled direction is in tangent space: multiply it by the matrix of t, b and n.",
-            [("directions stay in tangent space", of_frame(Frame::Forgotten))],
+            [("directions stay in tangent space", of_frame(Transformation::Forgotten))],
         ),
         Entry::new(
             "flipped-normal",

@@ -4,11 +4,14 @@
 mod direction;
 mod path;
 mod roulette;
+mod single;
 
 use crate::hypotheses::{Hypothesis, Misreading, to_the_letter};
 use crate::reading::TangentBasis;
 use crate::section::Section;
-use crate::variation::{FACETS, Frame, Variation};
+use crate::variation::{FACETS, Transformation, Variation};
+
+pub use single::{Numbers, directions};
 
 /// Paths that end one bounce too early: unless the limit is small, nothing shows of it.
 pub const BOUNCE_OFF_BY_ONE: &str = "bounce-off-by-one";
@@ -70,7 +73,7 @@ pub fn misreadings() -> Vec<Hypothesis> {
     let uses_frame = |hypothesis: &&Hypothesis| {
         let Hypothesis { id, variation, .. } = hypothesis;
         variation.reading.tangent_basis == TangentBasis::Normalised
-            && matches!(variation.frame, Frame::AsRead | Frame::Columns(_))
+            && matches!(variation.frame, Transformation::AsRead | Transformation::Columns(_))
             && variation.hemisphere.uses_frame()
             && !["nan-frame", "no-absolute-value"].contains(id)
     };
