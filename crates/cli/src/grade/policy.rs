@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::CliError;
+use crate::input;
 use grading::policy::Policy;
 use variants::misreadings::names;
 use variants::section::Section;
@@ -18,7 +19,7 @@ pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
     let wrong = |message: String| {
         CliError::Argument(format!("{}: expected a policy: {message}", path.display()))
     };
-    let text = std::fs::read_to_string(path).map_err(|error| CliError::unreadable(path, error))?;
+    let text = input::text(path)?;
     // Without this, an array would be taken for the scores in their order.
     let object: serde_json::Map<String, serde_json::Value> =
         serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
