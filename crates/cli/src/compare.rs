@@ -14,7 +14,9 @@ use super::progress;
 use super::run_args::RunArgs;
 use compare::pictures::compare_pictures;
 use compare::report::{Outcome, compare, scene_size};
+use grading::intake::kinds::PNG;
 use grading::page::difference;
+use grading::picture::reading::read_any_picture;
 use photon_list::ply;
 use photon_list::reader::{self, PhotonList};
 use photon_list::record::Columns;
@@ -25,8 +27,6 @@ use variants::run::Run;
 
 /// The exit code when the lists or pictures differ.
 const DIFFERENT: u8 = 1;
-/// How every PNG file starts.
-const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 /// The options of `compare`.
 #[derive(Debug, Args)]
@@ -119,10 +119,12 @@ fn is_picture(path: &Path) -> Result<bool, CliError> {
 fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     let mut run = arguments.run.load()?;
     let mut named = None;
-    let (reference, submission) = match arguments.files.as_slice() {
+    let (reference, mut submission) = match arguments.files.as_slice() {
         [reference, submission] => {
             named = name_run(arguments, reference, &mut run);
-            (reader::load(reference)?, submission)
+            let load = |path| move || reader::load(path);
+            let (reference, submission) = rayon::join(load(reference), load(submission));
+            (reference?, submission?)
         }
         [submission, ..] if arguments.run.seed.is_some() || arguments.run.photons.is_some() => {
             if is_picture(submission)? {
@@ -130,7 +132,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
                 let message = format!("{submission}: expected a photon list, found a picture");
                 return Err(CliError::Argument(message));
             }
-            (trace(&run, arguments.quiet), submission)
+            (trace(&run, arguments.quiet), reader::load(submission)?)
         }
         _ => {
             return Err(CliError::Argument(
@@ -139,7 +141,6 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
             ));
         }
     };
-    let mut submission = reader::load(submission)?;
     let mut notes = Vec::new();
     let mut outside = 0;
     if let Some(part) = &named {
@@ -236,12 +237,9 @@ fn pictures(arguments: &CompareArgs, reference: &Path, submission: &Path) -> Res
 }
 
 fn read_picture(path: &Path) -> Result<image::RgbImage, CliError> {
-    let file = File::open(path).map_err(|error| CliError::unreadable(path, error))?;
-    let reader = image::ImageReader::with_format(io::BufReader::new(file), image::ImageFormat::Png);
-    let picture = reader.decode().map_err(|error| {
-        CliError::Argument(format!("{}: expected a PNG picture: {error}", path.display()))
-    })?;
-    Ok(picture.into_rgb8())
+    read_any_picture(path).map_err(|reason| {
+        CliError::Argument(format!("{}: expected a PNG picture: {reason}", path.display()))
+    })
 }
 
 fn finish(

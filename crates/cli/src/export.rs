@@ -1,10 +1,10 @@
 //! Students' names, from rosters and from what Canvas, Gradescope and Moodle export.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
+use super::input;
 
 /// What a roster or an export tells of a student.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -56,7 +56,7 @@ fn plain(text: &str) -> String {
 /// # Errors
 /// When it cannot be read, or has no column for names.
 pub fn roster(path: &Path) -> Result<Vec<Student>, CliError> {
-    let text = fs::read(path).map_err(|error| CliError::unreadable(path, error))?;
+    let text = input::bytes(path)?;
     let text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&text);
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text);
     let wrong = |line: u64, message: &str| {
@@ -112,12 +112,14 @@ pub fn in_name(name: &str) -> Option<Student> {
     }
 }
 
-/// The students of Gradescope's exports among `paths`, by the names of their folders.
-pub fn students(paths: &[PathBuf]) -> BTreeMap<String, Student> {
+/// The students of Gradescope's exports among `paths`, by their folders: what a student hands in may
+/// have such a file, too, which then names nobody else.
+pub fn students(paths: &[PathBuf]) -> BTreeMap<PathBuf, Student> {
     let mut students = BTreeMap::new();
     for path in paths {
-        if let Ok(text) = fs::read_to_string(path.join("submission_metadata.yml")) {
-            students.extend(gradescope(&text));
+        if let Ok(text) = input::text(&path.join("submission_metadata.yml")) {
+            let of_folder = |(name, student)| (path.join(name), student);
+            students.extend(gradescope(&text).into_iter().map(of_folder));
         }
     }
     students

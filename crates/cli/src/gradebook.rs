@@ -2,7 +2,6 @@
 //! for each, and what a regrade changed.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -13,6 +12,7 @@ use serde::Deserialize;
 
 use super::error::CliError;
 use super::export::{self, Student};
+use super::input;
 
 /// The options that are about the class, not about photons.
 #[derive(Debug, Args)]
@@ -70,9 +70,8 @@ impl GradebookArgs {
         }
         let exported = export::students(paths);
         let known = handed_in.drain(..).map(|one| {
-            let word = last_word(&one.submission.name);
-            let student = exported.get(word).cloned();
-            (student.or_else(|| export::in_name(word)), one)
+            let student = exported.get(Path::new(&one.submission.name)).cloned();
+            (student.or_else(|| export::in_name(last_word(&one.submission.name))), one)
         });
         let mut known = join(known.collect());
         if let Some(path) = &self.roster {
@@ -152,7 +151,7 @@ fn join(all: Vec<(Option<Student>, HandedIn)>) -> Vec<(Option<Student>, HandedIn
 }
 
 fn earlier(path: &Path) -> Result<BTreeMap<String, Before>, CliError> {
-    let text = fs::read_to_string(path).map_err(|error| CliError::unreadable(path, error))?;
+    let text = input::text(path)?;
     let grades = match serde_json::from_str(&text) {
         Ok(Earlier::One(grade)) => vec![grade],
         Ok(Earlier::Several(grades)) => grades,

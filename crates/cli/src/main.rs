@@ -14,6 +14,7 @@ mod explore;
 mod export;
 mod grade;
 mod gradebook;
+mod input;
 mod kit;
 mod merge;
 mod output;

@@ -8,6 +8,7 @@ use clap::Args;
 use serde::Deserialize;
 
 use super::error::CliError;
+use super::input;
 use super::output::OutputFile;
 use super::run_summary::{Summary, print_summary};
 use oracle::summary::{Counts, Tally};
@@ -160,8 +161,7 @@ fn merge_lists(arguments: &MergeArgs, out: &Path) -> Result<Summary, CliError> {
 
 fn merge_counts(arguments: &MergeArgs) -> Result<Summary, CliError> {
     let read = |path: &PathBuf| -> Result<CountOnly, CliError> {
-        let text = fs::read_to_string(path)
-            .map_err(|source| ListError::Unreadable { path: path.clone(), source })?;
+        let text = input::text(path)?;
         let expected = "expected a PLY list or the JSON of --count-only --json; a list in CSV does \
                         not name its run: trace it with --format ply";
         serde_json::from_str(&text).map_err(|_| malformed(path, expected))

@@ -8,6 +8,7 @@ use super::error::{CliError, escaped};
 use super::values;
 use model::obj::{self, ModelLight};
 use model::placement::Placement;
+use photon_list::reader::refuse_pipe;
 use photon_mapping::assignment8;
 use photon_mapping::scene::Scene;
 use variants::reading::Reading;
@@ -41,6 +42,7 @@ impl SceneArgs {
         match &self.scene {
             None => Ok((assignment8::create_scene(), Placement::WORLD)),
             Some(path) => {
+                refuse_pipe(path)?;
                 let model = obj::load(path)?;
                 model.notes.iter().for_each(|note| eprintln!("note: {}", escaped(note)));
                 Ok(model::place(model, &self.light))

@@ -418,6 +418,18 @@ fn the_order_of_records_without_numbers_means_nothing() {
     let report = json(run_line("compare --json --photons 20000 {}", &[&reversed]).code(0));
     assert_eq!(report["outcome"], "within-tolerance");
     assert_eq!(report["note"], "the same photons in another order");
+    // Rounded to two decimals, photons have others nearby, which must leave them theirs.
+    let rounded = changed(&csv, "rounded.csv", |lines| {
+        positions_only(lines);
+        lines[1..].reverse();
+        for line in &mut lines[1..] {
+            let round = |cell: &str| format!("{:.2}", cell.parse::<f32>().expect("a number"));
+            *line = line.split(',').map(round).collect::<Vec<_>>().join(",");
+        }
+    });
+    let line = "compare --json --tolerance 0.005 --photons 20000 {}";
+    let report = json(run_line(line, &[&rounded]).code(0));
+    assert_eq!(counts(&report)[1..], [0, 0, 0], "{report:#}");
     let fewer = changed(&reversed, "fewer.csv", |lines| {
         lines.remove(9);
     });

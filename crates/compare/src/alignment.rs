@@ -2,11 +2,13 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 use glam::Vec3;
 
 use super::differences::same_to_light;
+use super::partners::partners;
 use super::position_index::{PositionIndex, is_near};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
@@ -86,10 +88,10 @@ pub fn with_bounces(list: &PhotonList) -> Cow<'_, PhotonList> {
 /// The places of a list's records in order of photon, then bounce.
 fn sorted(list: &PhotonList) -> Vec<usize> {
     let mut places: Vec<_> = (0..list.records.len()).collect();
-    // Absent bounces are all alike, and the sort is stable.
-    places.sort_by_key(|place| {
+    // Absent bounces are all alike, and leave records in their order.
+    places.sort_unstable_by_key(|place| {
         let record = &list.records[*place];
-        (record.photon, record.bounce)
+        (record.photon, record.bounce, *place)
     });
     places
 }
@@ -152,27 +154,22 @@ impl Lists<'_> {
         if in_order == most {
             return None;
         }
-        let positions: Vec<_> = reference.iter().map(|record| record.position).collect();
-        let index = PositionIndex::new(&positions, self.tolerance);
-        let mut partners = vec![None; reference.len()];
-        let mut extra = Vec::new();
-        for (j, record) in submission.iter().enumerate() {
-            let near = index.near(record.position, j);
-            match near.into_iter().find(|i| partners[*i].is_none()) {
-                Some(i) => partners[i] = Some(j),
-                None => extra.push(Pairing::Extra(j)),
-            }
-        }
-        let found = submission.len() - extra.len();
+        let [of_reference, of_submission] = [reference, submission]
+            .map(|records| records.iter().map(|record| record.position).collect::<Vec<_>>());
+        let partners = partners(&of_reference, &of_submission, self.tolerance);
+        let found = partners.iter().flatten().count();
         let is_all = found == reference.len() && found == submission.len();
         if !is_all && (2 * found < most || 4 * in_order > 3 * found) {
             return None;
         }
+        let mut is_extra = vec![true; submission.len()];
+        partners.iter().flatten().for_each(|j| is_extra[*j as usize] = false);
+        let extra = is_extra.into_iter().enumerate().filter(|(_, is_extra)| *is_extra);
         let of_reference = partners.into_iter().enumerate().map(|(i, partner)| match partner {
-            Some(j) => Pairing::Both(i, j),
+            Some(j) => Pairing::Both(i, j as usize),
             None => Pairing::Missing(i),
         });
-        Some(of_reference.chain(extra).collect())
+        Some(of_reference.chain(extra.map(|(j, _)| Pairing::Extra(j))).collect())
     }
 
     /// Pairs records that lie upon each other by their directions to the light, where both lists
@@ -269,34 +266,33 @@ pub fn common_subsequence(
     let end = a.iter().rev().zip(b.iter().rev()).take_while(both_near).count();
     let (a, b) = (&a[..a.len() - end], &b[..b.len() - end]);
 
-    // A pair, and the pair before it in the longest sequence that ends with it.
-    struct Link {
-        pair: (usize, usize),
-        before: Option<usize>,
-    }
-    let mut links: Vec<Link> = Vec::new();
+    // A pair, and the place of the pair before it in the longest sequence that ends with it.
+    let mut links: Vec<([u32; 2], Option<NonZeroU32>)> = vec![([0; 2], None)];
     // Of all sequences of length k + 1, the last link of the one that ends earliest in `a`.
-    let mut shortest: Vec<usize> = Vec::new();
+    let mut shortest: Vec<NonZeroU32> = Vec::new();
     let index = PositionIndex::new(a, tolerance);
     for (j, position) in b.iter().enumerate() {
         let around = (j as u64 * a.len() as u64 / b.len() as u64) as usize;
         for i in index.near(*position, around).into_iter().rev() {
-            let length = shortest.partition_point(|link| links[*link].pair.0 < i);
+            let link = |place: NonZeroU32| links[place.get() as usize];
+            let length = shortest.partition_point(|place| (link(*place).0[0] as usize) < i);
             let before = length.checked_sub(1).map(|before| shortest[before]);
-            links.push(Link { pair: (i, j), before });
+            let place = u32::try_from(links.len()).ok().and_then(NonZeroU32::new);
+            let Some(place) = place else { break };
+            links.push(([i as u32, j as u32], before));
             if length == shortest.len() {
-                shortest.push(links.len() - 1);
+                shortest.push(place);
             } else {
-                shortest[length] = links.len() - 1;
+                shortest[length] = place;
             }
         }
     }
     let mut middle = Vec::new();
-    let mut link = shortest.last().copied();
-    while let Some(place) = link {
-        let (i, j) = links[place].pair;
-        middle.push((start + i, start + j));
-        link = links[place].before;
+    let mut last = shortest.last().copied();
+    while let Some(place) = last {
+        let ([i, j], before) = links[place.get() as usize];
+        middle.push((start + i as usize, start + j as usize));
+        last = before;
     }
     middle.reverse();
     let (a_end, b_end) = (start + a.len(), start + b.len());

@@ -109,19 +109,20 @@ fn photon_shift(reference: &PhotonList, submission: &PhotonList, tolerance: f32)
     if !(reference.columns.photon && submission.columns.photon) {
         return None;
     }
-    let mut places: HashMap<u32, Vec<Vec3>> = HashMap::new();
-    for record in &reference.records {
-        places.entry(record.photon).or_default().push(record.position);
-    }
     let all: Vec<_> = probes(&submission.records).collect();
     let matched = |shift: i32| {
-        let is_found = |position: Vec3, photon: u32| {
-            let number = photon.checked_add_signed(shift);
-            let of_photon = number.and_then(|number| places.get(&number));
-            of_photon
-                .is_some_and(|all| all.iter().any(|other| is_near(*other, position, tolerance)))
-        };
-        all.iter().filter(|record| is_found(record.position, record.photon)).count()
+        let mut wanted: HashMap<u32, Vec<(Vec3, bool)>> = HashMap::new();
+        for record in &all {
+            if let Some(number) = record.photon.checked_add_signed(shift) {
+                wanted.entry(number).or_default().push((record.position, false));
+            }
+        }
+        for record in &reference.records {
+            for (position, is_found) in wanted.get_mut(&record.photon).into_iter().flatten() {
+                *is_found |= is_near(record.position, *position, tolerance);
+            }
+        }
+        wanted.values().flatten().filter(|(_, is_found)| *is_found).count()
     };
     if all.len() < FEWEST || 10 * matched(0) > all.len() {
         return None;

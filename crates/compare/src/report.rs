@@ -12,6 +12,7 @@ use super::known::KnownRun;
 use super::numbering::{REACHES, with_photons};
 use super::numbers::thousands;
 use super::position_index::is_near;
+use super::same_rows::{has_same_bits, has_same_order, has_same_rows};
 use super::whole::judge_whole;
 use crate::explain::explain;
 use photon_list::reader::PhotonList;
@@ -29,6 +30,8 @@ const FEWEST_MATCHED: usize = 20;
 const USUAL_BY_ROUNDING: f64 = 1e-4;
 /// So many records of the reference are traced again, to see whether its run is the one named.
 const PROBES: usize = 32;
+
+const ANOTHER_ORDER: &str = "the same photons in another order";
 
 /// How two lists compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -112,6 +115,15 @@ pub fn compare(
         report.sha256 = reference.columns.all().then(|| hash(reference));
         return report;
     }
+    let tells_photons = reference.columns.photon && submission.columns.photon;
+    if has_same_rows(reference, submission) {
+        report.outcome = Outcome::WithinTolerance;
+        report.differences.matched = report.reference_records;
+        if !tells_photons && !has_same_order(reference, submission) {
+            report.add_note(ANOTHER_ORDER);
+        }
+        return report;
+    }
     let reference = &*with_bounces(reference);
     let (submission, notes) = to_reference(reference, submission, tolerance);
     notes.iter().for_each(|note| report.add_note(note));
@@ -121,10 +133,9 @@ pub fn compare(
     let agree = compared.few(f64::from(allowed), records);
     report.outcome = if agree { Outcome::WithinTolerance } else { Outcome::Different };
     report.differences = compared.differences.clone();
-    if !(reference.columns.photon && submission.columns.photon) && is_reordered(&compared.pairings)
-    {
+    if !tells_photons && is_reordered(&compared.pairings) {
         report.add_note(if compared.differing.is_empty() {
-            "the same photons in another order"
+            ANOTHER_ORDER
         } else {
             "the photons are in another order, and were matched by their places"
         });
@@ -190,12 +201,6 @@ impl Compared {
             submission.columns.to_light && (all < FEWEST_MATCHED || 2 * same > all);
         Lists { reference, submission, pairings, tolerance: *tolerance, has_true_to_light }
     }
-}
-
-fn has_same_bits(a: &PhotonList, b: &PhotonList) -> bool {
-    a.columns == b.columns
-        && a.records.len() == b.records.len()
-        && a.records.iter().zip(&b.records).all(|(a, b)| a.to_row() == b.to_row())
 }
 
 fn hash(list: &PhotonList) -> String {

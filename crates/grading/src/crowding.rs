@@ -22,17 +22,17 @@ const LEFT: f64 = 0.03;
 const WEIGHTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 
 /// A bound on the chance that `positions`, rounded to `unit`, share cubes as often as they do.
-pub fn crowding(positions: &[DVec3], unit: f64) -> f64 {
+pub fn crowding(positions: impl Iterator<Item = DVec3> + Clone, unit: f64) -> f64 {
     let mut smallest = 0.0_f64;
     for edge in EDGES.into_iter().filter(|edge| unit <= *edge * (1.0 + 1e-9)) {
         let of_cube = DENSEST * AREA * (edge + unit).powi(2);
         let mut occupied = HashSet::new();
         let mut logarithms = WEIGHTS.map(|_| 0.0);
-        for position in positions {
+        for position in positions.clone() {
             let chance = (LEFT + of_cube * occupied.len() as f64).min(1.0);
             // Half a unit aside: rounded positions lie on no cube's face.
-            let cube = ((*position + 0.5 * unit) / edge).floor().to_array().map(|it| it as i64);
-            let is_shared = !occupied.insert(cube);
+            let cube = ((position + 0.5 * unit) / edge).floor().to_array();
+            let is_shared = !occupied.insert(packed(cube));
             for (logarithm, weight) in logarithms.iter_mut().zip(WEIGHTS) {
                 *logarithm += (chance * weight.exp_m1()).ln_1p();
                 *logarithm -= if is_shared { weight } else { 0.0 };
@@ -41,4 +41,10 @@ pub fn crowding(positions: &[DVec3], unit: f64) -> f64 {
         smallest = logarithms.into_iter().fold(smallest, f64::min);
     }
     (smallest.exp() * (EDGES.len() * WEIGHTS.len()) as f64).min(1.0)
+}
+
+/// One number for each cube: positions on facets have coordinates of far less than 2^20 edges.
+fn packed(cube: [f64; 3]) -> u64 {
+    const BITS: u32 = 21;
+    cube.into_iter().fold(0, |all, it| all << BITS | (it as i64 as u64 & ((1 << BITS) - 1)))
 }

@@ -1,7 +1,5 @@
 //! What a list of photons shows: counted by place, and looked over for what cannot be right.
 
-use std::collections::HashSet;
-
 use super::crowding::crowding;
 use super::places::{Place, Places};
 use super::repeats::{Copies, Repeat, are_by_rounding, copies, repeats};
@@ -181,10 +179,9 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         by_bounce
     });
     let is_on_facet = |place: &Place| matches!(place, Place::Cell { .. } | Place::Corner { .. });
-    let on_facets: Vec<DVec3> = (list.records.iter().zip(&located))
+    let on_facets = (list.records.iter().zip(&located))
         .filter(|(_, place)| is_on_facet(place))
-        .map(|(record, _)| record.position.as_dvec3())
-        .collect();
+        .map(|(record, _)| record.position.as_dvec3());
     let unit = decimals.map_or(0.0, |decimals| 10_f64.powi(-decimals));
     let gaps = (list.columns.photon && list.columns.bounce).then(|| gaps(&list.records));
     let intensity = list.columns.intensity.then(|| emitted_by_intensity(&list.records));
@@ -193,7 +190,7 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         repeated: count(Repeat::Closely) + count(Repeat::ByRounding) + identical,
         repeats_by_rounding,
         copies: decimals.is_none().then(|| copies(&list.records)),
-        crowding: crowding(&on_facets, unit),
+        crowding: crowding(on_facets, unit),
         gaps,
         identical: decimals.is_none().then_some(identical),
         counts,
@@ -210,10 +207,11 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
 /// How many of `records` come after a path's first, and how many of these lack the bounce before.
 fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
     let first = records.iter().map(|record| record.bounce).min().unwrap_or_default();
-    let known: HashSet<_> = records.iter().map(|record| (record.photon, record.bounce)).collect();
+    let mut known: Vec<_> = records.iter().map(|record| (record.photon, record.bounce)).collect();
+    known.sort_unstable();
+    let is_known = |photon, bounce| known.binary_search(&(photon, bounce)).is_ok();
     let later = records.iter().filter(|record| record.bounce > first);
-    let without =
-        later.clone().filter(|record| !known.contains(&(record.photon, record.bounce - 1)));
+    let without = later.clone().filter(|record| !is_known(record.photon, record.bounce - 1));
     [later.count() as u64, without.count() as u64]
 }
 

@@ -1,7 +1,5 @@
 //! Photons that lie where another one does.
 
-use std::collections::HashMap;
-
 use super::places::Place;
 use glam::DVec3;
 use photon_mapping::photon_list::PhotonRecord;
@@ -27,15 +25,16 @@ pub struct Copies {
 /// Which part of `records` come more than once, to the last bit.
 pub(super) fn copies(records: &[PhotonRecord]) -> Copies {
     let bits = |record: &PhotonRecord| record.position.to_array().map(f32::to_bits);
-    let mut counts = HashMap::new();
-    records.iter().for_each(|record| *counts.entry(bits(record)).or_insert(0_u32) += 1);
-    let all = records.iter().filter(|record| counts[&bits(record)] > 1).count() as f64;
-    let runs = records.chunk_by(|a, b| bits(a) == bits(b)).map(<[_]>::len);
-    let side_by_side: usize = runs.filter(|length| *length > 1).sum();
-    Copies {
-        all: all / records.len().max(1) as f64,
-        side_by_side: side_by_side as f64 / all.max(1.0),
-    }
+    let mut sorted: Vec<[u32; 3]> = records.iter().map(bits).collect();
+    sorted.sort_unstable();
+    let all = in_runs(&sorted, |a, b| a == b);
+    let side_by_side = in_runs(records, |a, b| bits(a) == bits(b));
+    Copies { all: all / records.len().max(1) as f64, side_by_side: side_by_side / all.max(1.0) }
+}
+
+/// How many of `all` stand beside one that is the `same`.
+fn in_runs<T>(all: &[T], same: impl FnMut(&T, &T) -> bool) -> f64 {
+    all.chunk_by(same).map(<[T]>::len).filter(|length| *length > 1).sum::<usize>() as f64
 }
 
 /// Whether a photon lies where another one does.
@@ -59,20 +58,20 @@ pub(super) fn are_by_rounding(repeats: &[Repeat]) -> bool {
 pub(super) fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat> {
     // Askew to all facets, so that few photons are abreast.
     let way = DVec3::new(0.5342, 0.6171, 0.5777);
-    let mut sweep: Vec<(f64, DVec3, usize)> = Vec::new();
-    for (index, (record, place)) in records.iter().zip(located).enumerate() {
-        if matches!(place, Place::Cell { .. } | Place::Corner { .. }) {
-            let position = record.position.as_dvec3();
-            sweep.push((position.dot(way), position, index));
-        }
-    }
+    let position = |index: u32| records[index as usize].position.as_dvec3();
+    let mut sweep: Vec<(f64, u32)> = (0..)
+        .zip(located)
+        .filter(|(_, place)| matches!(place, Place::Cell { .. } | Place::Corner { .. }))
+        .map(|(index, _)| (position(index).dot(way), index))
+        .collect();
     sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let mut repeats = vec![Repeat::No; records.len()];
-    for (at, (along, position, index)) in sweep.iter().enumerate() {
+    for (at, (along, index)) in sweep.iter().enumerate() {
         let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
         let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
-        let closest = near.map(|other| other.1.distance_squared(*position)).reduce(f64::min);
-        repeats[*index] = match closest {
+        let distance = |other: u32| position(other).distance_squared(position(*index));
+        let closest = near.map(|other| distance(other.1)).reduce(f64::min);
+        repeats[*index as usize] = match closest {
             Some(0.0) => Repeat::Exactly,
             Some(squared) if squared <= BY_ROUNDING.powi(2) => Repeat::ByRounding,
             Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,

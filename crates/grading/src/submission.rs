@@ -9,10 +9,10 @@ use super::judge_list::{Expectations, Judgement, judge};
 use super::naming::Explanation;
 use super::observation::observe;
 use super::own;
-use super::picture::dots::find_dots;
+use super::picture::dots::{FoundDots, find_dots};
 use super::picture::judge_picture;
 use super::picture::reading::read_picture;
-use super::picture::view::PIXELS;
+use super::picture::view::{PIXELS, View};
 use super::policy::Policy;
 use super::text::{printable, rounded};
 use super::twins::Fingerprint;
@@ -167,11 +167,29 @@ fn not_read(submission: &Submission, settings: &Settings, error: &std::io::Error
 /// What the course is told, if this program's own list was handed in.
 fn own(graded: &Graded, settings: &Settings) -> Option<String> {
     let (list, _) = graded.list.as_ref()?;
-    let seed = own::seed_of(&list.records, settings.seed)?;
-    Some(format!(
-        "the photons are those of this program with --seed {seed}, or some of them; a right \
-         program with its random numbers stores the same"
-    ))
+    own::seed_of(&list.records, settings.seed).map(|seed| told_own("photons", seed))
+}
+
+/// The same for a picture.
+fn own_picture(picture: &Path, settings: &Settings, expectations: &Expectations) -> Option<String> {
+    let (dots, view) = dots_of(picture, expectations)?;
+    own::seed_of_picture(&dots.red, view, settings.seed).map(|seed| told_own("dots", seed))
+}
+
+fn told_own(what: &str, seed: u64) -> String {
+    format!(
+        "the {what} are those of this program with --seed {seed}, or some of them; a right program \
+         with its random numbers stores the same"
+    )
+}
+
+/// The dots of `picture`, and the view in which they are.
+fn dots_of<'a>(picture: &Path, expectations: &'a Expectations) -> Option<(FoundDots, &'a View)> {
+    let expectations = expectations.pictures();
+    let picture = read_picture(picture).ok()?;
+    let dots = find_dots(&picture, &expectations.view, || expectations.shifted()).ok()?;
+    let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
+    Some((dots, view))
 }
 
 /// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
@@ -197,6 +215,10 @@ fn grade_picture(
         Ok(judgement) => judgement,
         Err(reason) => return unreadable(submission, settings, &reason),
     };
+    if expectations.signatures.max_bounces == 0 {
+        let found = if judgement.has_dots { "dots" } else { "no dot" };
+        return without_bounces(submission, settings, None, found, !judgement.has_dots);
+    }
     let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
     let verdict = match faults().next() {
         None => Verdict::Correct,
@@ -217,7 +239,10 @@ fn grade_picture(
         misreading_confidence: misreading.map(|explanation| explanation.confidence),
         misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
         findings: judgement.findings.clone(),
-        for_course: Vec::new(),
+        for_course: match verdict {
+            Verdict::Correct => own_picture(picture, settings, expectations).into_iter().collect(),
+            _ => Vec::new(),
+        },
     };
     Graded::new(grade)
 }
@@ -229,10 +254,7 @@ fn stores_direct(alone: &Option<Explanation>, pair: &Option<Explanation>) -> boo
 
 /// A remark, if the dots of `picture` are not the photons of `list`.
 fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Option<Finding> {
-    let expectations = expectations.pictures();
-    let picture = read_picture(picture).ok()?;
-    let dots = find_dots(&picture, &expectations.view, || expectations.shifted()).ok()?;
-    let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
+    let (dots, view) = dots_of(picture, expectations)?;
     let mut of_list = vec![false; PIXELS];
     for record in &list.records {
         view.for_each_pixel_of(record.position, |pixel| of_list[pixel] = true);
@@ -331,7 +353,9 @@ pub fn grade_list(
         return unreadable(submission, settings, "no position in the list is a finite number");
     }
     if expectations.signatures.max_bounces == 0 {
-        return without_bounces(submission, settings, observation.records);
+        let stored = observation.records;
+        let found = format!("{stored} photons");
+        return without_bounces(submission, settings, Some(stored), &found, stored == 0);
     }
     if observation.records == 0 {
         return no_photons(submission, settings);
@@ -376,14 +400,19 @@ pub fn grade_list(
     Graded { list: Some((list, judgement)), ..Graded::new(grade) }
 }
 
-/// The grade of a list of `stored` photons where none may bounce, and so none may be stored.
-fn without_bounces(submission: &Submission, settings: &Settings, stored: u64) -> Graded {
-    let is_right = stored == 0;
+/// The grade of a submission with what is `found`, where none may bounce and so none may be stored.
+fn without_bounces(
+    submission: &Submission,
+    settings: &Settings,
+    stored: Option<u64>,
+    found: &str,
+    is_right: bool,
+) -> Graded {
     let finding = Finding {
         check: "photons",
         section: Some("Photon Storage"),
         expected: "no photon: one is stored only after it has bounced".to_owned(),
-        found: format!("{stored} photons, where none may bounce"),
+        found: format!("{found}, where no photon may bounce"),
         p_value: None,
         passed: is_right,
         weight: Weight::Fault,
@@ -394,7 +423,7 @@ fn without_bounces(submission: &Submission, settings: &Settings, stored: u64) ->
     };
     let verdict = if is_right { Verdict::Correct } else { Verdict::Incorrect };
     let grade = Grade {
-        stored: Some(stored),
+        stored,
         score: settings.policy.score(verdict, None, false),
         verdict,
         findings: vec![finding],

@@ -13,25 +13,30 @@ pub fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_odd(letter) { '\u{fffd}' } else { letter }).collect()
 }
 
-/// Whether `letter` has no shape of its own: it separates lines, has no width, or sets the
-/// direction of text.
+/// Whether `letter` has no shape of its own: it separates lines, has no width, sets the direction of
+/// text, or is blank without being a space. Unicode's property Default_Ignorable_Code_Point, and
+/// what else is like that.
 pub fn is_invisible(letter: char) -> bool {
     matches!(
         letter,
         '\u{ad}'
             | '\u{34f}'
             | '\u{61c}'
-            | '\u{115f}'
-            | '\u{1160}'
+            | '\u{115f}'..='\u{1160}'
+            | '\u{17b4}'..='\u{17b5}'
             | '\u{180b}'..='\u{180f}'
             | '\u{200b}'..='\u{200f}'
             | '\u{2028}'..='\u{202e}'
             | '\u{2060}'..='\u{206f}'
+            | '\u{2800}'
             | '\u{3164}'
+            | '\u{fe00}'..='\u{fe0f}'
             | '\u{feff}'
             | '\u{ffa0}'
-            | '\u{fff9}'..='\u{fffb}'
-            | '\u{e0000}'..='\u{e007f}'
+            | '\u{fff0}'..='\u{fffb}'
+            | '\u{1bca0}'..='\u{1bca3}'
+            | '\u{1d173}'..='\u{1d17a}'
+            | '\u{e0000}'..='\u{e0fff}'
     )
 }
 
@@ -86,9 +91,16 @@ pub fn text(grade: &Grade, best: f64) -> String {
     text
 }
 
-/// `name` in quotes, where it could be read as a grade.
+/// `name` in quotes, where it could be read as a grade: with a colon or what looks like one, a
+/// comma, or spaces around it.
 fn named(name: &str) -> Cow<'_, str> {
-    if name.contains(": ") { Cow::Owned(format!("{name:?}")) } else { Cow::Borrowed(name) }
+    let is_plain = |letter: char| letter.is_alphanumeric() || "/\\._-+~@()[] ".contains(letter);
+    // Letters of other scripts may look like a colon.
+    let is_clear = name.is_ascii() || !name.contains(' ');
+    match is_clear && name.chars().all(is_plain) && name.trim() == name {
+        true => Cow::Borrowed(name),
+        false => Cow::Owned(format!("{name:?}")),
+    }
 }
 
 /// The verdict, and what it is about.

@@ -73,11 +73,16 @@ fn hash(position: Vec3, size: f32) -> u64 {
 
 /// Which part of the cells of both is in both, estimated from the smallest hashes.
 fn shared(a: &[u64], b: &[u64]) -> f64 {
-    let both: BTreeSet<u64> = a.iter().chain(b).copied().collect();
-    let first: Vec<u64> = both.into_iter().take(KEPT).collect();
-    let is_in = |hashes: &[u64], hash: &u64| hashes.binary_search(hash).is_ok();
-    let shared = first.iter().filter(|hash| is_in(a, hash) && is_in(b, hash)).count();
-    shared as f64 / first.len().max(1) as f64
+    let (mut i, mut j) = (0, 0);
+    let (mut all, mut both) = (0, 0);
+    while all < KEPT && (i < a.len() || j < b.len()) {
+        let [of_a, of_b] = [a.get(i), b.get(j)].map(|hash| hash.copied().unwrap_or(u64::MAX));
+        all += 1;
+        both += usize::from(of_a == of_b);
+        i += usize::from(of_a <= of_b);
+        j += usize::from(of_b <= of_a);
+    }
+    both as f64 / all.max(1) as f64
 }
 
 /// For each of `all`, which others have the same photons.

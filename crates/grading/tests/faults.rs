@@ -99,7 +99,7 @@ fn photons_of_the_reference_do_not_crowd() {
                 exact => (exact / unit).round() * unit,
             };
             let positions: Vec<_> = records.iter().map(rounded).collect();
-            let chance = crowding(&positions, unit);
+            let chance = crowding(positions.iter().copied(), unit);
             assert!(chance > 0.9, "{emitted} {unit}: {chance:e}");
         }
     }

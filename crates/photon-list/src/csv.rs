@@ -14,8 +14,9 @@ use super::error::{At, ListError};
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
 
-/// In so many comments the names of columns are looked for: that takes longer than reading them.
-const MOST_COMMENTS: usize = 1000;
+/// In so many bytes of comments the names of columns are looked for: that takes longer than reading
+/// them.
+const MOST_IN_COMMENTS: usize = 16_384;
 
 /// The first line: the names of the columns.
 pub fn header() -> String {
@@ -56,8 +57,8 @@ pub(super) fn start(
     while let Some((number, line)) = next {
         let row = line.trim();
         if let Some(comment) = commented(row) {
-            comments += 1;
-            if comments <= MOST_COMMENTS {
+            comments += comment.len();
+            if comments <= MOST_IN_COMMENTS {
                 let dialect = Dialect::of(comment.trim()).ok();
                 of_comment = dialect.filter(|dialect| dialect.has_header).or(of_comment);
             }

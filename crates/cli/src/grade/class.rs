@@ -14,13 +14,14 @@ use crate::output::write;
 use grading::class::grade_one;
 use grading::gradescope;
 use grading::intake::HandedIn;
-use grading::intake::contents::same_contents;
+use grading::intake::contents::{contents, is_named_twice};
 use grading::judge_list::Expectations;
 use grading::page::{Pages, index::Index};
 use grading::submission::{Graded, MOST_RECORDS, Settings, grade_at_most, remark};
 use grading::text;
 use grading::twins::{Fingerprint, twins};
 use grading::verdict::{Grade, SAME_FILES};
+use photon_list::reader::MOST_BYTES;
 
 /// Longer lists are judged one at a time: memory is then that of one, however many there are.
 const MANY_RECORDS: usize = 300_000;
@@ -65,14 +66,19 @@ impl Class<'_> {
         if self.students.is_anonymous() {
             return graded;
         }
+        let list = |at: usize| handed_in[at].submission.list.clone();
         let prints: Vec<_> = graded.iter().map(|one| one.fingerprint.as_ref()).collect();
-        for (at, mut others) in twins(&prints).into_iter().enumerate() {
-            others.retain(|other| !is_named_twice(&handed_in[at], &handed_in[*other]));
-            let list = |at: usize| handed_in[at].submission.list.clone();
-            let is_copy = |other: &usize| match (list(at), list(*other)) {
-                (Some(one), Some(other)) => same_contents(&[one, other]),
-                _ => false,
-            };
+        let twins = twins(&prints);
+        let with_twins =
+            twins.iter().enumerate().map(|(at, others)| list(at).filter(|_| !others.is_empty()));
+        let contents = contents(&with_twins.collect::<Vec<_>>(), MOST_BYTES);
+        for (at, mut others) in twins.into_iter().enumerate() {
+            others.retain(|other| match (list(at), list(*other)) {
+                (Some(one), Some(other)) => !is_named_twice(&one, &other),
+                _ => true,
+            });
+            let is_copy =
+                |other: &usize| contents[at].is_some() && contents[at] == contents[*other];
             let (copies, others): (Vec<usize>, Vec<usize>) = others.into_iter().partition(is_copy);
             let notes: Vec<String> = [
                 twin_note("the photon list is the same, byte by byte, as that", &copies, &graded),
@@ -172,15 +178,6 @@ impl Kept {
             self.problem = Some(error.to_string());
         }
     }
-}
-
-/// Whether both are the same file, named twice: a link to another's file is no such name.
-fn is_named_twice(one: &HandedIn, other: &HandedIn) -> bool {
-    let path = |handed_in: &HandedIn| {
-        let path = handed_in.submission.list.clone()?;
-        (!path.is_symlink()).then(|| std::fs::canonicalize(path).ok())?
-    };
-    path(one).is_some() && path(one) == path(other)
 }
 
 fn twin_note(what: &str, others: &[usize], graded: &[Kept]) -> Option<String> {

@@ -6,6 +6,7 @@ use serde_json::error::Category;
 use serde_json::{Map, Value};
 
 use crate::error::CliError;
+use crate::input;
 use grading::policy::Policy;
 use variants::misreadings::names;
 use variants::section::Section;
@@ -27,7 +28,7 @@ pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
     let Some(path) = path else {
         return Ok(Policy::default());
     };
-    let text = std::fs::read_to_string(path).map_err(|error| CliError::unreadable(path, error))?;
+    let text = input::text(path)?;
     parse(&text).map_err(|(line, message)| {
         CliError::Argument(format!("{}:{line}: {message}", path.display()))
     })

@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::error::CliError;
 use grading::intake::HandedIn;
 use grading::submission::Submission;
+use photon_list::reader::MOST_BYTES;
 
-/// More is not read.
-const MOST_BYTES: u64 = 1 << 30;
 /// How standard input is called.
 pub const STANDARD_INPUT: &str = "-";
 

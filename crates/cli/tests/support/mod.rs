@@ -1,7 +1,9 @@
 //! What the tests of the command line share.
 #![allow(dead_code)] // Not every test uses all of it.
 
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Output;
 
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
@@ -56,4 +58,50 @@ pub fn reference_csv(folder: &Path, photons: u64) -> PathBuf {
     let line = "render --format csv --quiet --size 1x1 --photons {} --out {}";
     run_line(line, &[Path::new(&photons), folder]).success();
     folder.join("photons.csv")
+}
+
+/// The program, to be started in `folder`.
+pub fn program(folder: &Path) -> std::process::Command {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_photon-mapping"));
+    command.current_dir(folder);
+    command
+}
+
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The positions that the reference stores of `photons` with `seed`.
+pub fn csv(seed: u64, photons: u64) -> String {
+    let mut text = "x,y,z\n".to_owned();
+    for record in fixtures::list(&fixtures::handout(seed, photons)) {
+        let [x, y, z] = record.position.to_array();
+        text += &format!("{x},{y},{z}\n");
+    }
+    text
+}
+
+pub fn write(path: PathBuf, contents: impl AsRef<[u8]>) -> PathBuf {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, contents).unwrap();
+    path
+}
+
+pub fn mkfifo(path: &Path) {
+    assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+}
+
+/// The grades of `paths`.
+pub fn grades(options: &[&str], paths: &[&Path]) -> Vec<Value> {
+    let words = ["grade", "--format", "json", "--emitted", "60000"].iter().chain(options);
+    let words = words.map(|word| word.as_ref()).chain(paths.iter().map(|path| path.as_os_str()));
+    match json(run(words).success()) {
+        Value::Array(grades) => grades,
+        grade => vec![grade],
+    }
+}
+
+pub fn remarks(grade: &Value) -> String {
+    let findings = grade["findings"].as_array().unwrap().iter();
+    findings.map(|finding| finding["found"].as_str().unwrap().to_owned() + "\n").collect()
 }

@@ -121,19 +121,23 @@ pub fn is_class(folder: &Path) -> Result<bool, String> {
         // Beside its own list or picture, other pictures are those of a program.
         2.. if has_own && sum(|found| found.lists.len()) == 0 => Ok(false),
         2.. if !has_own && (lists > 1 || sum(|found| found.pictures.len()) > 1) => Ok(true),
-        _ => {
-            let names: Vec<String> =
-                named.iter().take(3).map(|path| within(path, folder)).collect();
-            Err(format!(
-                "{}: it could be one submission, or a class of {} students ({}{}): grade it with \
-                 --submission or --class",
-                folder.display(),
-                named.len(),
-                names.join(", "),
-                if named.len() > 3 { ", ..." } else { "" }
-            ))
-        }
+        _ => Err(both_readings(folder)),
     }
+}
+
+/// What `folder` could be: one submission or a class.
+pub fn both_readings(folder: &Path) -> String {
+    let folders = Children::of(folder).folders;
+    let named: Vec<&PathBuf> = folders.iter().filter(|path| !is_part(path)).collect();
+    let names: Vec<String> = named.iter().take(3).map(|path| within(path, folder)).collect();
+    format!(
+        "{}: it could be one submission, or a class of {} students ({}{}): grade it with \
+         --submission or --class",
+        folder.display(),
+        named.len(),
+        names.join(", "),
+        if named.len() > 3 { ", ..." } else { "" }
+    )
 }
 
 /// The submissions of the class `folder`, and what in it is none.

@@ -10,11 +10,13 @@ use photon_mapping::assignment8::{HEIGHT, WIDTH};
 use super::contents::same_contents;
 use super::kinds::{self, Kind, kind};
 use crate::text::printable;
-use photon_list::reader::{Look, look};
+use photon_list::reader::{LONGEST_START, Look, look};
 
 /// So many files and levels of a folder are searched: the course's framework has 4,433 and 9.
 const MOST_ENTRIES: usize = 10_000;
 const MOST_LEVELS: usize = 6;
+/// So many bytes are read to see which files are lists.
+const MOST_LOOKED_AT: u64 = 100_000_000;
 /// A folder with more names than this in it is not sorted.
 const MOST_NAMES: usize = 1_000_000;
 /// So many files are named in one note.
@@ -37,6 +39,10 @@ pub struct Found {
     pub notes: Vec<String>,
     /// Whether something could not be read.
     pub is_partial: bool,
+    /// What was left out because its name starts with a dot.
+    hidden: Vec<PathBuf>,
+    /// How many bytes were read.
+    looked_at: u64,
 }
 
 /// The list and the picture of a folder.
@@ -65,12 +71,16 @@ impl Found {
                     Ok(names) => names,
                 };
                 for name in names {
-                    if entries == MOST_ENTRIES {
+                    if entries == MOST_ENTRIES || found.looked_at > MOST_LOOKED_AT {
                         is_cut = true;
                         break;
                     }
                     entries += 1;
-                    let path = inner.join(name);
+                    let path = inner.join(&name);
+                    if name.to_string_lossy().starts_with('.') {
+                        found.hidden.push(path);
+                        continue;
+                    }
                     if let Err(error) = found.sort(&path, folder, &root, &mut next) {
                         found.is_partial |= error.kind() != io::ErrorKind::NotFound;
                         let name = within(&path, folder);
@@ -82,8 +92,8 @@ impl Found {
         }
         if is_cut || !level.is_empty() {
             found.notes.push(format!(
-                "there are more than {MOST_ENTRIES} files or {MOST_LEVELS} levels in it, and the \
-                 rest was not searched"
+                "there are more than {MOST_ENTRIES} files or {MOST_LEVELS} levels in it, or far too \
+                 much to read, and the rest was not searched"
             ));
         }
         Ok(found)
@@ -118,7 +128,7 @@ impl Found {
                 }
                 Some(Kind::Picture(_)) => self.pictures.push(path),
                 Some(Kind::Document(_)) => self.documents.push(path),
-                None => match look(&path)? {
+                None => match self.look(&path)? {
                     Look::List => self.lists.push(path),
                     Look::Unlikely => self.unlikely.push(path),
                     Look::Other if is_called_a_list(&path) => self.would_be_lists.push(path),
@@ -127,6 +137,11 @@ impl Found {
             }
         }
         Ok(())
+    }
+
+    fn look(&mut self, path: &Path) -> io::Result<Look> {
+        self.looked_at += fs::metadata(path)?.len().min(LONGEST_START);
+        look(path)
     }
 
     /// Whether there is anything that a student may have handed in.
@@ -157,6 +172,10 @@ impl Found {
         if self.lists.is_empty() && self.pictures.is_empty() {
             // The reader of pictures says what to hand in instead.
             self.pictures = self.documents;
+            if self.pictures.is_empty() && !self.hidden.is_empty() {
+                let names = names_of(&self.hidden, folder);
+                notes.push(format!("left out: {names}: names with a dot are no part of it"));
+            }
         }
         let list = choice("photon lists", self.lists, left_out, folder, &mut notes, |_| false);
         let size = |path: &PathBuf| kinds::png_size(&kinds::start(path).ok()?);
@@ -175,20 +194,18 @@ impl Found {
     }
 }
 
-/// The names in `folder`, those that a submission has first. What systems leave has names with a
-/// dot: .DS_Store, ._photons.csv, .git.
+/// The names in `folder`, those that a submission has first, and those with a dot last, which systems
+/// leave: .DS_Store, ._photons.csv, .git.
 fn names(folder: &Path) -> io::Result<Vec<OsString>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)?.take(MOST_NAMES) {
-        let name = entry?.file_name();
-        if !name.to_string_lossy().starts_with('.') {
-            names.push(name);
-        }
+        names.push(entry?.file_name());
     }
     names.sort_by_cached_key(|name| {
         let path = PathBuf::from(name);
         let is_likely = is_called_a_list(&path) || has_extension(&path, &["png"]);
-        (!is_usual(&path), !is_likely, name.clone())
+        let is_hidden = name.to_string_lossy().starts_with('.');
+        (is_hidden, !is_usual(&path), !is_likely, name.clone())
     });
     Ok(names)
 }

@@ -10,9 +10,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::picture::reading::MOST_BYTES;
 use super::submission::Submission;
 use super::text::printable;
-use contents::{Contents, contents};
+use contents::{Contents, contents, is_named_twice};
 use folder::Found;
 use kinds::Kind;
 
@@ -59,19 +60,27 @@ pub struct Collected {
 pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     let mut collected = Collected::default();
     let mut all = Vec::new();
-    for path in paths {
-        let is_class = path.is_dir()
-            && match folders {
-                Folders::Class => true,
-                Folders::Submission => false,
-                Folders::Clear => match class::is_class(path) {
-                    Ok(is_class) => is_class,
-                    Err(why) => {
-                        collected.ambiguous.push(why);
-                        continue;
-                    }
-                },
-            };
+    let is_class = |path: &PathBuf| match folders {
+        Folders::Class => Ok(path.is_dir()),
+        Folders::Submission => Ok(false),
+        Folders::Clear if path.is_dir() => class::is_class(path),
+        Folders::Clear => Ok(false),
+    };
+    let are_classes: Vec<Result<bool, String>> = paths.iter().map(is_class).collect();
+    let are_all = are_classes.iter().all(|is_class| *is_class == Ok(true));
+    for (path, is_class) in paths.iter().zip(are_classes) {
+        let is_class = match is_class {
+            // A student who hands in folders with others' names is no class.
+            Ok(true) if folders == Folders::Clear && !are_all => {
+                collected.ambiguous.push(class::both_readings(path));
+                continue;
+            }
+            Err(why) => {
+                collected.ambiguous.push(why);
+                continue;
+            }
+            Ok(is_class) => is_class,
+        };
         if is_class {
             let (students, mut notes) = class::students(path);
             all.extend(students.into_iter().map(|student| (student, true)));
@@ -175,21 +184,17 @@ fn from_folder(folder: &Path) -> HandedIn {
 fn tell_twins(all: &mut [HandedIn]) {
     let files: Vec<Option<PathBuf>> =
         all.iter().map(|one| one.submission.picture.clone()).collect();
-    // A file that is named twice is no twin of itself, but a link to another's is.
-    let named = |file: &PathBuf| (!file.is_symlink()).then(|| fs::canonicalize(file).ok())?;
-    let paths: Vec<Option<PathBuf>> =
-        files.iter().map(|file| file.as_ref().and_then(named)).collect();
     let mut of_contents: HashMap<Contents, Vec<usize>> = HashMap::new();
-    for (at, contents) in contents(&files).into_iter().enumerate() {
+    for (at, contents) in contents(&files, MOST_BYTES).into_iter().enumerate() {
         if let Some(contents) = contents {
             of_contents.entry(contents).or_default().push(at);
         }
     }
     for twins in of_contents.values() {
         for at in twins {
-            let is_other = |other: &&usize| {
-                other != &at && (paths[**other].is_none() || paths[**other] != paths[*at])
-            };
+            let file = |at: usize| files[at].as_deref().expect("it has contents");
+            let is_other =
+                |other: &&usize| *other != at && !is_named_twice(file(**other), file(*at));
             let names = twins.iter().filter(is_other).take(5);
             let names: Vec<_> = names.map(|other| all[*other].submission.name.clone()).collect();
             if !names.is_empty() {

@@ -5,14 +5,18 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 
 use image::codecs::png::PngDecoder;
-use image::{DynamicImage, ImageDecoder, Limits, RgbImage};
+use image::{DynamicImage, Limits, RgbImage};
 
-use crate::intake::kinds::{Kind, PNG, START, kind};
+use crate::intake::kinds::{Kind, PNG, START, kind, png_size};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 /// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB.
 /// It bounds what a decoder has to unpack, too.
-const MOST_BYTES: u64 = 4 << 20;
+pub const MOST_BYTES: u64 = 4_000_000;
+/// The same for pictures of any size: the largest that `render` draws, hardly compressed.
+const MOST_BYTES_OF_ANY: u64 = 1_000_000_000;
+/// The largest picture that `render` draws has so many pixels.
+const MOST_PIXELS: u64 = 16_384 * 16_384;
 /// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the
 /// longest format.
 const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
@@ -21,11 +25,39 @@ const PIXEL_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"
 const CHUNK_FRAME: usize = 12;
 /// What the decoder may allocate besides the picture.
 const MOST_MEMORY: u64 = 16 << 20;
+
 /// Reads the picture `path`, in bounded time and memory.
 ///
 /// # Errors
 /// The reason, in words, if it is not a PNG picture of the size that the framework writes.
 pub fn read_picture(path: &Path) -> Result<RgbImage, String> {
+    let bytes = read_bytes(path, MOST_BYTES)?;
+    let (width, height) = size(&bytes)?;
+    if (width, height) != (WIDTH, HEIGHT) {
+        return Err(format!(
+            "it has {width} x {height} pixels, where the handout's has {WIDTH} x {HEIGHT}: it was \
+             made with another size, or resized, or is a screenshot. Dots are judged at that size \
+             alone: {WANTED}"
+        ));
+    }
+    check(&bytes, decode(&bytes)?)
+}
+
+/// As [`read_picture`], for a picture of any size that `render` draws.
+///
+/// # Errors
+/// The reason, in words, if it is not a PNG picture or too large.
+pub fn read_any_picture(path: &Path) -> Result<RgbImage, String> {
+    let bytes = read_bytes(path, MOST_BYTES_OF_ANY)?;
+    let (width, height) = size(&bytes)?;
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(format!("it has {width} x {height} pixels, more than {MOST_PIXELS} in all"));
+    }
+    Ok(decode(&bytes)?.into_rgb8())
+}
+
+/// The bytes of the PNG file `path`.
+fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let unreadable = |error: std::io::Error| format!("it cannot be read: {error}");
     // Asked before it is opened, since to open a pipe may take for ever.
     if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
@@ -33,19 +65,18 @@ pub fn read_picture(path: &Path) -> Result<RgbImage, String> {
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(unreadable)?;
-    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > MOST_BYTES {
-        let most = MOST_BYTES >> 20;
+    file.take(most + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > most {
+        let most = most / 1_000_000;
         return Err(format!("it has more than {most} MB, more than such a picture can need"));
     }
     match kind(&bytes[..bytes.len().min(START)], path) {
-        Some(Kind::Picture(name)) if name == "PNG" => {}
+        Some(Kind::Picture(name)) if name == "PNG" => Ok(bytes),
         Some(Kind::Picture(name) | Kind::Document(name)) => {
-            return Err(format!("{name}, not PNG{}: {WANTED}", blurs(&name)));
+            Err(format!("{name}, not PNG{}: {WANTED}", blurs(&name)))
         }
-        Some(Kind::Packed(_)) | None => return Err("it is not a picture".to_owned()),
+        Some(Kind::Packed(_)) | None => Err("it is not a picture".to_owned()),
     }
-    decode(&bytes)
 }
 
 /// What a student is asked for.
@@ -55,30 +86,29 @@ fn blurs(name: &str) -> &'static str {
     if name == "JPEG" { ", whose compression smears dots" } else { "" }
 }
 
-fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
+/// The width and height in the header of the PNG file `bytes`, before anything is unpacked.
+fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
+    png_size(bytes).ok_or_else(|| "it is a broken PNG file: it ends too early".to_owned())
+}
+
+/// Unpacks the pixels of the PNG file `bytes`, and nothing else.
+fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
     let broken = |error: image::ImageError| format!("it is a broken PNG file: {error}");
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MOST_MEMORY);
-    // Its header, before anything is unpacked.
-    let size = bytes.get(16..24).ok_or("it is a broken PNG file: it ends too early")?;
-    let number = |at: usize| u32::from_be_bytes(std::array::from_fn(|byte| size[at + byte]));
-    let (width, height) = (number(0), number(4));
-    if (width, height) != (WIDTH, HEIGHT) {
-        return Err(format!(
-            "it has {width} x {height} pixels, where the handout's has {WIDTH} x {HEIGHT}: it was \
-             made with another size, or resized, or is a screenshot. Dots are judged at that size \
-             alone: {WANTED}"
-        ));
-    }
     if chunks(bytes).any(|chunk| chunk.get(4..8) == Some(b"acTL")) {
         return Err(format!("it is animated: {WANTED}"));
     }
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MOST_MEMORY);
     let pixels = pixels_alone(bytes);
     let decoder = PngDecoder::with_limits(Cursor::new(&pixels), limits).map_err(broken)?;
-    if !decoder.color_type().has_color() {
+    DynamicImage::from_decoder(decoder).map_err(broken)
+}
+
+/// The colors of `picture`, whose file is `bytes`, if it can be one with dots.
+fn check(bytes: &[u8], picture: DynamicImage) -> Result<RgbImage, String> {
+    if !picture.color().has_color() {
         return Err(format!("it is gray, and dots are red: {WANTED}"));
     }
-    let picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     let rgb = picture.to_rgb8();
     let first = *rgb.get_pixel(0, 0);
     if bytes.len() > MOST_UNPACKED && rgb.pixels().all(|pixel| *pixel == first) {
