@@ -55,15 +55,16 @@ use width::Width;
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
 ///
 /// Nanoseconds for the closest hit of a ray that leaves one of many boxes in a room, in lanes and
-/// with the tree (AVX2, Zen 3; `benches/speed.rs`):
+/// with the tree (AVX-512 and AVX2, Zen 4; `benches/speed.rs`):
 ///
-/// - 24 triangles: 22 and 62
-/// - 48 triangles: 38 and 87
-/// - 96 triangles: 81 and 99
-/// - 128 triangles: 98 and 104
-/// - 192 triangles: 172 and 155
+/// - 24 triangles: 17 and 36
+/// - 48 triangles: 39 and 42
+/// - 64 triangles: 42 and 42
+/// - 96 triangles: 126 and 46
+/// - 128 triangles: 120 and 51
 ///
-/// Lanes also draw the numbers of many photons at once, so they keep the tie.
+/// Beyond the tie lanes still win. They also draw the numbers of many photons at once, which one
+/// ray at a time cannot.
 pub const MOST_TRIANGLES: usize = 128;
 
 /// Traces the photons of one renderer in lanes.

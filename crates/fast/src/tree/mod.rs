@@ -14,22 +14,22 @@
 //! A box counts as too far only beyond twice that. That is 32 of these roundings, and covers those
 //! of the box test itself (Ize, *Robust BVH Ray Traversal*, JCGT 2013).
 //!
-//! A node has eight boxes, so that few nodes are waited for one after another. A leaf has four
-//! triangles, because every processor of the common targets has vectors of four. The tree is built
-//! from the top by the surface area heuristic with bins (Wald, *On fast Construction of SAH-based
-//! Bounding Volume Hierarchies*, 2007). It is our own, because the crates for such trees bring
-//! their own triangle tests, or boxes that are not conservative.
+//! A node has eight boxes and a leaf eight triangles. Each is tested at once, in the processor's
+//! vectors (`eight`), so that few are waited for one after another. The tree is built from the
+//! top by the surface area heuristic with bins (Wald, *On fast Construction of SAH-based Bounding
+//! Volume Hierarchies*, 2007). It is our own, because the crates for such trees bring their own
+//! triangle tests, or boxes that are not conservative.
 
 mod build;
 mod eight;
+mod pages;
 mod search;
 
 use std::sync::Arc;
 
-use glam::Vec3;
-
 use crate::lanes::width::Width;
 use build::{Halving, Item, NodeBounds, TreePart};
+use pages::Pages;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::Triangle;
 use photon_mapping::scene::{Acceleration, Scene};
@@ -55,33 +55,33 @@ const NO_CHILD: u32 = u32::MAX;
 
 type Lanes = [f32; WIDTH];
 
+/// The least corners of eight boxes, by axis, then the greatest. Then come the bits of what is in
+/// the boxes, and a row that puts every node on the border of a cache line.
+type TreeNode = [Lanes; 8];
+const CHILDREN: usize = 6;
+
+/// Eight triangles: their corners, by corner, then axis. Then come their normals, by axis, which
+/// the triangles have too, but far away in memory, and the bits of their indices. A triangle that
+/// is missing is the first once more.
+type Leaf = [Lanes; 13];
+const NORMALS: usize = 9;
+const INDICES: usize = 12;
+
 /// Boxes around boxes around triangles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct Tree {
-    nodes: Vec<TreeNode>,
-    leaves: Vec<Leaf>,
+    nodes: Pages,
+    leaves: Pages,
     bounds: NodeBounds,
     width: Width,
 }
 
-/// On the border of a cache line: in a large mesh most of the time is spent waiting for nodes.
-#[derive(Clone, Debug, PartialEq)]
-#[repr(align(64))]
-struct TreeNode {
-    /// The least and the greatest corners of the boxes, by axis.
-    ends: [[Lanes; 3]; 2],
-    children: [u32; WIDTH],
-}
-
-/// Eight triangles; one that is missing is the first once more.
-#[derive(Clone, Debug, PartialEq)]
-#[repr(align(64))]
-struct Leaf {
-    /// By corner, then axis.
-    corners: [[Lanes; 3]; 3],
-    indices: [u32; WIDTH],
-    /// By axis. The triangles have them too, but far away in memory.
-    normals: [Lanes; 3],
+/// Nodes and leaves while a tree is built.
+struct Growing<'a> {
+    triangles: &'a [Triangle],
+    halving: Halving<'a>,
+    nodes: Vec<TreeNode>,
+    leaves: Vec<Leaf>,
 }
 
 impl Tree {
@@ -99,36 +99,11 @@ impl Tree {
         let mut halving = Halving::default();
         let root = halving.add(&mut items);
         let bounds = halving.bounds(root);
-        let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), bounds, width };
-        tree.add_node(triangles, &halving, root);
-        tree
-    }
-
-    /// Adds a node for `part` and all below it, and gives its place.
-    fn add_node(&mut self, triangles: &[Triangle], halving: &Halving, part: TreePart) -> u32 {
-        let place = self.nodes.len();
-        let empty = [[f32::INFINITY; WIDTH]; 3];
-        self.nodes.push(TreeNode {
-            ends: [empty, empty.map(|axis| axis.map(|low| -low))],
-            children: [NO_CHILD; WIDTH],
-        });
-        for (slot, part) in halving.boxes(part).into_iter().enumerate() {
-            let bounds = halving.bounds(part);
-            let child = match part {
-                TreePart::Leaf(items) => {
-                    self.leaves.push(Leaf::new(triangles, items));
-                    (self.leaves.len() - 1) as u32 | LEAF
-                }
-                TreePart::Halved(_) => self.add_node(triangles, halving, part),
-            };
-            let node = &mut self.nodes[place];
-            node.children[slot] = child;
-            for axis in 0..3 {
-                node.ends[0][axis][slot] = bounds.low[axis];
-                node.ends[1][axis][slot] = bounds.high[axis];
-            }
-        }
-        place as u32
+        let (nodes, leaves) = (Vec::new(), Vec::new());
+        let mut growing = Growing { triangles, halving, nodes, leaves };
+        growing.add_node(root);
+        let Growing { nodes, leaves, .. } = growing;
+        Self { nodes: Pages::of(&nodes), leaves: Pages::of(&leaves), bounds, width }
     }
 
     #[inline(always)]
@@ -162,16 +137,41 @@ impl Acceleration for Tree {
     }
 }
 
-impl Leaf {
-    fn new(triangles: &[Triangle], items: &[Item]) -> Self {
-        let indices = std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).index);
-        let eight = indices.map(|index: u32| &triangles[index as usize]);
-        let by_axis = |vectors: [Vec3; WIDTH]| [0, 1, 2].map(|axis| vectors.map(|v| v[axis]));
-        Self {
-            corners: [0, 1, 2]
-                .map(|corner| by_axis(eight.map(|triangle| triangle.vertices[corner]))),
-            indices,
-            normals: by_axis(eight.map(|triangle| triangle.normal)),
+impl Growing<'_> {
+    /// Adds a node for `part` and all below it, and gives its place.
+    fn add_node(&mut self, part: TreePart) -> u32 {
+        let place = self.nodes.len();
+        let [inf, zero] = [f32::INFINITY, 0.0].map(|value| [value; WIDTH]);
+        let none = [f32::from_bits(NO_CHILD); WIDTH];
+        let less = inf.map(|value| -value);
+        self.nodes.push([inf, inf, inf, less, less, less, none, zero]);
+        for (slot, part) in self.halving.boxes(part).into_iter().enumerate() {
+            let NodeBounds { low, high } = self.halving.bounds(part);
+            let child = match part {
+                TreePart::Leaf(items) => {
+                    self.leaves.push(leaf(self.triangles, items));
+                    (self.leaves.len() - 1) as u32 | LEAF
+                }
+                TreePart::Halved(_) => self.add_node(part),
+            };
+            let values = [low.x, low.y, low.z, high.x, high.y, high.z, f32::from_bits(child)];
+            for (row, value) in self.nodes[place].iter_mut().zip(values) {
+                row[slot] = value;
+            }
+        }
+        place as u32
+    }
+}
+
+fn leaf(triangles: &[Triangle], items: &[Item]) -> Leaf {
+    let mut leaf = [[0.0; WIDTH]; 13];
+    for lane in 0..WIDTH {
+        let index = items.get(lane).unwrap_or(&items[0]).index;
+        let Triangle { vertices: [a, b, c], normal, .. } = triangles[index as usize];
+        let values = [a, b, c, normal].into_iter().flat_map(|vector| vector.to_array());
+        for (row, value) in leaf.iter_mut().zip(values.chain([f32::from_bits(index)])) {
+            row[lane] = value;
         }
     }
+    leaf
 }

@@ -4,7 +4,7 @@ use glam::Vec3;
 use pulp::{cast, f32x8};
 
 use super::eight::{Eight, WithEight};
-use super::{LEAF, Leaf, NO_CHILD, SLACK, Tree, TreeNode, WIDTH};
+use super::{CHILDREN, INDICES, LEAF, Leaf, NO_CHILD, NORMALS, SLACK, Tree, TreeNode, WIDTH};
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle, meet};
 
@@ -26,14 +26,15 @@ impl<F: Fn(&Triangle, f32) -> bool> WithEight for Search<'_, F> {
     #[inline(always)]
     fn with<E: Eight>(self, eight: E) -> Self::Output {
         let Self { tree, ray, triangles, of, any_will_do } = self;
+        let (nodes, leaves) = (tree.nodes.values(), tree.leaves.values());
         let mut way = Way::new(eight, ray, tree);
         let mut waiting = Stack::new();
         let mut next = Some(0);
         while let Some(place) = next {
             next = if place & LEAF == 0 {
-                way.enter(&tree.nodes[place as usize], &mut waiting)
+                way.enter(&nodes[place as usize], &mut waiting)
             } else {
-                way.test(&tree.leaves[(place & !LEAF) as usize], triangles, &of);
+                way.test(&leaves[(place & !LEAF) as usize], triangles, &of);
                 if any_will_do && way.index != NO_CHILD {
                     break;
                 }
@@ -114,7 +115,7 @@ impl<E: Eight> Way<E> {
         let mut far = eight.splat_f32s(f32::INFINITY);
         for axis in 0..3 {
             let first = self.first[axis] & 1;
-            let (starts, ends) = (cast(node.ends[first][axis]), cast(node.ends[1 - first][axis]));
+            let (starts, ends) = (cast(node[3 * first + axis]), cast(node[3 - 3 * first + axis]));
             let along =
                 |ends, origin| eight.mul_f32s(eight.sub_f32s(ends, origin), self.reciprocal[axis]);
             // Not a number when the ray runs along the box's side: then this axis does not count.
@@ -130,7 +131,7 @@ impl<E: Eight> Way<E> {
         let distances: [f32; WIDTH] = cast(near);
         let slot = entered.trailing_zeros() as usize % WIDTH;
         entered &= entered - 1;
-        let mut nearest = (node.children[slot], distances[slot]);
+        let mut nearest = (node[CHILDREN][slot].to_bits(), distances[slot]);
         if entered == 0 {
             return Some(nearest.0);
         }
@@ -138,7 +139,7 @@ impl<E: Eight> Way<E> {
         while entered != 0 {
             let slot = entered.trailing_zeros() as usize % WIDTH;
             entered &= entered - 1;
-            let child = (node.children[slot], distances[slot]);
+            let child = (node[CHILDREN][slot].to_bits(), distances[slot]);
             if child.1 < nearest.1 {
                 waiting.push(nearest);
                 nearest = child;
@@ -155,8 +156,8 @@ impl<E: Eight> Way<E> {
     fn test(&mut self, leaf: &Leaf, triangles: &[Triangle], of: impl Fn(&Triangle, f32) -> bool) {
         let eight = self.eight;
         let mut seen = [[eight.splat_f32s(0.0); 3]; 3];
-        for (seen, corner) in seen.iter_mut().zip(&leaf.corners) {
-            *seen = self.see(corner);
+        for (corner, seen) in seen.iter_mut().enumerate() {
+            *seen = self.see(leaf, corner);
         }
         let [a, b, c] = seen;
         let u = eight.cross(c[0], b[1], c[1], b[0]);
@@ -175,10 +176,10 @@ impl<E: Eight> Way<E> {
         let distances = eight.div_f32s(eight.add_f32s(eight.add_f32s(ua, vb), wc), determinant);
         let facing = eight.add_f32s(
             eight.add_f32s(
-                eight.mul_f32s(self.direction[0], cast(leaf.normals[0])),
-                eight.mul_f32s(self.direction[1], cast(leaf.normals[1])),
+                eight.mul_f32s(self.direction[0], cast(leaf[NORMALS])),
+                eight.mul_f32s(self.direction[1], cast(leaf[NORMALS + 1])),
             ),
-            eight.mul_f32s(self.direction[2], cast(leaf.normals[2])),
+            eight.mul_f32s(self.direction[2], cast(leaf[NORMALS + 2])),
         );
         let is_ahead = eight.greater_than_f32s(distances, eight.splat_f32s(-self.start_error));
         let is_close = eight.less_than_or_equal_f32s(distances, eight.splat_f32s(self.closest));
@@ -200,7 +201,7 @@ impl<E: Eight> Way<E> {
                 };
                 t = exact;
             }
-            let index = leaf.indices[lane];
+            let index = leaf[INDICES][lane].to_bits();
             let triangle = &triangles[index as usize];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
             if (t < self.closest || is_tie)
@@ -213,12 +214,13 @@ impl<E: Eight> Way<E> {
         }
     }
 
-    /// Eight corners as the ray sees them, with the roundings of [`Triangle::intersect`].
+    /// The triangles' corners number `corner` as the ray sees them, with the roundings of [`Triangle::intersect`].
     #[inline(always)]
-    fn see(&self, corner: &[[f32; WIDTH]; 3]) -> [f32x8; 3] {
+    fn see(&self, leaf: &Leaf, corner: usize) -> [f32x8; 3] {
         let eight = self.eight;
         let [x, y, z] = self.sheared.order();
         let shear = self.sheared.shear();
+        let corner = &leaf[3 * corner..3 * corner + 3];
         let depth = eight.sub_f32s(cast(corner[z]), eight.splat_f32s(self.origin[z]));
         let beside_x = eight.sub_f32s(cast(corner[x]), eight.splat_f32s(self.origin[x]));
         let beside_y = eight.sub_f32s(cast(corner[y]), eight.splat_f32s(self.origin[y]));
