@@ -48,6 +48,11 @@ impl PhotonMap {
         Self { positions: sorted, starts, has_nan }
     }
 
+    /// The positions of all photons, in the order of the grid.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
     /// How many photons the map holds.
     pub fn len(&self) -> usize {
         self.positions.len()

@@ -13,6 +13,7 @@ use photon_mapping::rendering::image_writer;
 use photon_mapping::scene::Material;
 use photon_mapping::scene::MeshObject;
 use photon_mapping::scene::Scene;
+use photon_mapping::scene::camera::PerspectiveCamera;
 use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::triangle::Triangle;
 use proptest::prelude::*;
@@ -153,6 +154,33 @@ fn the_picture_is_the_same_at_every_width() {
         let picture = picture::take_picture(&renderer, lanes, &camera, width, height, || ());
         assert_eq!(picture.difference, None, "{lanes:?}");
         assert!(picture.picture == expected, "{lanes:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn pictures_of_other_scenes_are_the_same(
+        run in run(),
+        position in point(),
+        target in point(),
+        field_of_view in 5.0_f32..120.0,
+    ) {
+        let mut renderer = run.renderer;
+        renderer.photon_count = renderer.photon_count.min(300);
+        renderer.initialize_renderer(|_, _, _| ());
+        let (width, height) = (37, 23);
+        let forward = (target - position).try_normalize().unwrap_or(Vec3::Y);
+        let up = forward.any_orthonormal_vector();
+        let ratio = width as f32 / height as f32;
+        let camera = PerspectiveCamera::new(position, forward, up, field_of_view, ratio);
+        let expected = image_writer::take_picture(&renderer, &camera, width, height);
+        for lanes in Width::available() {
+            let picture = picture::take_picture(&renderer, lanes, &camera, width, height, || ());
+            prop_assert_eq!(picture.difference, None, "{:?}", lanes);
+            prop_assert!(picture.picture == expected, "{:?}", lanes);
+        }
     }
 }
 

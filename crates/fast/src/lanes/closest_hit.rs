@@ -21,12 +21,18 @@ type Lanes = [f32; GROUP];
 #[derive(Clone, Debug)]
 pub struct SharedCorners {
     corners: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
+    /// The places of the corners in `corners`, and the triangle's index in the scene.
+    triangles: Vec<([u32; 3], u32)>,
 }
 
 impl SharedCorners {
     /// The triangles of `scene`.
     pub fn new(scene: &Scene) -> Self {
+        Self::of(scene, 0..scene.triangles().len() as u32)
+    }
+
+    /// Those `triangles` of `scene`, whose indices must ascend.
+    pub fn of(scene: &Scene, triangles: impl IntoIterator<Item = u32>) -> Self {
         let mut corners: Vec<Vec3> = Vec::new();
         let mut of_bits = std::collections::HashMap::new();
         let mut place = |corner: Vec3| {
@@ -35,8 +41,10 @@ impl SharedCorners {
                 corners.len() as u32 - 1
             })
         };
-        let triangles =
-            scene.triangles().iter().map(|triangle| triangle.vertices.map(&mut place)).collect();
+        let triangles = triangles
+            .into_iter()
+            .map(|index| (scene.triangles()[index as usize].vertices.map(&mut place), index))
+            .collect();
         Self { corners, triangles }
     }
 }
@@ -142,7 +150,7 @@ impl NullaryFnOnce for Closest<'_> {
         let mut closest_t = [f32::INFINITY; GROUP];
         let mut closest = [NONE; GROUP];
         let mut doubt = [0; GROUP];
-        for (index, triangle) in scene.triangles.iter().enumerate() {
+        for (triangle, index) in &scene.triangles {
             let [a, b, c] = triangle.map(|corner| &hits.seen[corner as usize]);
             for lane in 0..GROUP {
                 let (ax, ay, bx) = (a[0][lane], a[1][lane], b[0][lane]);
@@ -157,7 +165,7 @@ impl NullaryFnOnce for Closest<'_> {
                 let is_closer = is_met & mask(t > 0.0) & mask(t < closest_t[lane]);
                 let kept = closest_t[lane].to_bits() & !is_closer;
                 closest_t[lane] = f32::from_bits((t.to_bits() & is_closer) | kept);
-                closest[lane] = (index as u32 & is_closer) | (closest[lane] & !is_closer);
+                closest[lane] = (index & is_closer) | (closest[lane] & !is_closer);
                 // Beside a true negative and a true positive one, a zero changes nothing.
                 let is_at_start = is_met & mask(t.abs() <= rays.start_error[lane]);
                 doubt[lane] |= mask(least == 0.0) | mask(greatest == 0.0) | is_at_start;
@@ -224,6 +232,23 @@ impl Rays {
             self.direction[axis][lane] = ray.ray_direction()[axis];
         }
         (self.start_error[lane], self.max_t[lane]) = (ray.start_error, ray.max_t);
+    }
+
+    /// Puts the ray in lane `from` of `others` into `lane`.
+    #[inline(always)]
+    pub fn copy(&mut self, lane: usize, others: &Self, from: usize) {
+        for axis in 0..3 {
+            self.origin[axis][lane] = others.origin[axis][from];
+            self.direction[axis][lane] = others.direction[axis][from];
+        }
+        self.start_error[lane] = others.start_error[from];
+        self.max_t[lane] = others.max_t[from];
+    }
+
+    /// The point at distance `t` of the ray in `lane`.
+    #[inline(always)]
+    pub fn point(&self, lane: usize, t: f32) -> Vec3 {
+        Vec3::from_array([0, 1, 2].map(|c| self.origin[c][lane])) + t * self.direction(lane)
     }
 
     /// The ray in `lane`.

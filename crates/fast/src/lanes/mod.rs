@@ -25,11 +25,12 @@
 //!
 //! If you change `trace_photon`, these tests fail until you make the same change here.
 
-mod chacha;
+pub mod chacha;
 pub mod closest_hit;
 mod draws;
 mod emission;
 mod first_hit;
+mod neighbourhood;
 pub mod offset;
 mod outlook;
 pub mod picture;
@@ -50,6 +51,7 @@ use photon_mapping::scene::triangle::Triangle;
 use closest_hit::SharedCorners;
 use offset::Offset;
 use outlook::Outlook;
+pub use wave::Stage;
 use width::Width;
 
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
@@ -138,6 +140,15 @@ impl<'renderer> LaneTracer<'renderer> {
     /// Traces the photons numbered `photons` on this thread: the records of
     /// [`crate::trace::trace_with_port`], bit for bit.
     pub fn trace_piece(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        self.trace_piece_by_stages(photons, |_| ())
+    }
+
+    /// As [`Self::trace_piece`]. `done` is told of every part that is done: see `benches/stages.rs`.
+    pub fn trace_piece_by_stages(
+        &self,
+        photons: Range<u64>,
+        mut done: impl FnMut(Stage),
+    ) -> Vec<PhotonRecord> {
         let mut records = Vec::new();
         let lights = self.renderer.stored_scene.lights();
         let of_lights = self.renderer.photons_of_lights();
@@ -145,7 +156,7 @@ impl<'renderer> LaneTracer<'renderer> {
             let wave = of_light.start.max(photons.start)..of_light.end.min(photons.end);
             if !wave.is_empty() {
                 let light_intensity = light.color / (of_light.end - of_light.start) as f32;
-                self.trace_wave(light, outlook, light_intensity, wave, &mut records);
+                self.trace_wave(light, outlook, light_intensity, wave, &mut records, &mut done);
             }
         }
         records

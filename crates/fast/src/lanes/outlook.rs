@@ -17,7 +17,7 @@
 //! - one edge function is certainly positive and another certainly negative.
 //!
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
-//! photon's direction are 0 or at least 2^-24. So none underflows where each coordinate is 0 or at
+//! photon's direction are 0 or at least [`SMALLEST_SHEAR`]. So none underflows where each coordinate is 0 or at
 //! least 2^-25. A triangle with smaller coordinates is in every cell.
 //!
 //! A photon straight from the light is not stored, so one that is absorbed at its first hit needs
@@ -42,6 +42,8 @@ const ROUGH_CELLS: usize = (CELLS + 1).next_power_of_two();
 /// How far a cell reaches over its ends, 2^-16: four times what [`step`] moves a shear by shrinking
 /// the grid and rounding, and [`rough_cell`] by five roundings more.
 const MARGIN: f32 = 1.0 / 65_536.0;
+/// 2^-24, which no shear of a photon's direction falls below, unless it is 0.
+pub const SMALLEST_SHEAR: f32 = 1.0 / 16_777_216.0;
 /// Coordinates below this, 2^-25, may underflow in the edge functions.
 const SMALLEST: f32 = 1.0 / 33_554_432.0;
 /// Coordinates beyond this may overflow in them.

@@ -1,17 +1,20 @@
 //! The picture in lanes, to the bytes of [`image_writer::take_picture`].
 
+use std::collections::HashMap;
+
 use glam::Vec3;
+use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 
-use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
+use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners, mask};
+use super::neighbourhood::Neighbourhood;
+use super::outlook::{self, Outlook};
 use super::width::Width;
-use photon_mapping::rendering::backward_renderer::light_towards;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
 };
 use photon_mapping::scene::camera::PerspectiveCamera;
-use photon_mapping::scene::ray::IntersectionState;
 use photon_mapping::scene::ray::Ray;
 
 /// Every so many pixels, one is computed by the port too.
@@ -58,24 +61,14 @@ pub fn take_picture(
     if renderer.stored_scene.triangles().len() > super::MOST_TRIANGLES {
         return CheckedPicture { picture: take_with_port(), difference: None };
     }
-    let corners = SharedCorners::new(&renderer.stored_scene);
+    let views = Views::new(renderer, camera_ray(0, 0).position());
     let mut picture = image::RgbImage::new(width, height);
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each_init(
-        || PictureTracer {
-            renderer,
-            lanes,
-            corners: &corners,
-            rays: Rays::default(),
-            hits: Hits::default(),
-        },
+        || PictureTracer::new(renderer, lanes, &views),
         |tracer, (row, pixels)| {
-            for (group, pixels) in pixels.chunks_mut(3 * GROUP).enumerate() {
-                let ray = |pixel: usize| camera_ray(group * GROUP + pixel, row);
-                let camera_rays: Vec<_> = (0..pixels.len() / 3).map(ray).collect();
-                let colors = tracer.sample_colors(&camera_rays);
-                for (pixel, color) in pixels.chunks_exact_mut(3).zip(colors) {
-                    pixel.copy_from_slice(&image_writer::to_bytes(color));
-                }
+            let colors = tracer.sample_colors(width as usize, |column| camera_ray(column, row));
+            for (pixel, color) in pixels.chunks_exact_mut(3).zip(colors) {
+                pixel.copy_from_slice(&image_writer::to_bytes(*color));
             }
             row_done();
         },
@@ -94,66 +87,227 @@ pub fn take_picture(
     CheckedPicture { picture, difference }
 }
 
+/// What a camera may see in which direction.
+struct Views {
+    /// Of each cell of its [`Outlook`], a bit for every triangle. The last one, for
+    /// [`outlook::UNKNOWN`], has all.
+    of_cells: Vec<u128>,
+    all: SharedCorners,
+    dots: Neighbourhood,
+}
+
+impl Views {
+    fn new(renderer: &PhotonMappingRenderer, origin: Vec3) -> Self {
+        let scene = &renderer.stored_scene;
+        let triangles = scene.triangles().len();
+        let outlook = Outlook::new(scene, origin, &vec![0.0; triangles]);
+        let bits = |triangles: &[u32]| triangles.iter().fold(0, |bits, t| bits | 1_u128 << t);
+        let mut of_cells: Vec<u128> =
+            (0..outlook::UNKNOWN).map(|cell| bits(outlook.candidates(cell))).collect();
+        of_cells.push(bits(&(0..triangles as u32).collect::<Vec<_>>()));
+        let dots = Neighbourhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS);
+        Self { of_cells, all: SharedCorners::new(scene), dots }
+    }
+}
+
+/// Finds the cells of rays from the camera.
+struct View<'a> {
+    rays: &'a Rays,
+    cells: &'a mut [u32; GROUP],
+}
+
+impl NullaryFnOnce for View<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let [x, y, z] = &self.rays.direction;
+        for lane in 0..GROUP {
+            let (cell, shear) = outlook::aim(Vec3::new(x[lane], y[lane], z[lane]));
+            // An outlook counts with shears like those of a photon.
+            let is_small = |shear: f32| (shear != 0.0) & (shear.abs() < outlook::SMALLEST_SHEAR);
+            let is_unknown = mask(is_small(shear.x) | is_small(shear.y));
+            self.cells[lane] = (cell & !is_unknown) | (outlook::UNKNOWN & is_unknown);
+        }
+    }
+}
+
+/// The points that a group of camera rays sees, one after another.
+#[derive(Default)]
+struct Seen {
+    points: [[f32; GROUP]; 3],
+    normals: [[f32; GROUP]; 3],
+    /// [`photon_mapping::scene::Scene::offset`] there.
+    needed: [f32; GROUP],
+    triangles: [u32; GROUP],
+    count: usize,
+}
+
+impl Seen {
+    fn push(&mut self, point: Vec3, normal: Vec3, needed: f32, triangle: u32) {
+        for axis in 0..3 {
+            self.points[axis][self.count] = point[axis];
+            self.normals[axis][self.count] = normal[axis];
+        }
+        (self.needed[self.count], self.triangles[self.count]) = (needed, triangle);
+        self.count += 1;
+    }
+}
+
+/// The shadow rays of [`photon_mapping::rendering::backward_renderer::light_towards`], and the
+/// cosines at which they leave.
+struct Towards<'a> {
+    seen: &'a Seen,
+    light: Vec3,
+    rays: &'a mut Rays,
+    cosines: &'a mut [f32; GROUP],
+}
+
+impl NullaryFnOnce for Towards<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { seen: Seen { points, normals, needed, .. }, light, rays, cosines } = self;
+        for lane in 0..GROUP {
+            let point = Vec3::new(points[0][lane], points[1][lane], points[2][lane]);
+            let normal = Vec3::new(normals[0][lane], normals[1][lane], normals[2][lane]);
+            let start = point + needed[lane] * normal;
+            let to_light = light - start;
+            let distance = to_light.length();
+            let direction = to_light / distance;
+            cosines[lane] = normal.dot(direction).max(0.0);
+            rays.origin[0][lane] = start.x;
+            rays.origin[1][lane] = start.y;
+            rays.origin[2][lane] = start.z;
+            rays.direction[0][lane] = direction.x;
+            rays.direction[1][lane] = direction.y;
+            rays.direction[2][lane] = direction.z;
+            rays.max_t[lane] = distance;
+        }
+    }
+}
+
 struct PictureTracer<'a> {
     renderer: &'a PhotonMappingRenderer,
     lanes: Width,
-    corners: &'a SharedCorners,
+    views: &'a Views,
+    /// The triangles that were looked for together so far, by their bits.
+    searched: HashMap<u128, SharedCorners>,
     rays: Rays,
+    cells: [u32; GROUP],
     hits: Hits,
+    shadows: Rays,
+    obstacles: Hits,
+    /// The pixels of the waiting shadow rays, and the colours that arrive unless something is in
+    /// between.
+    shaded: Vec<(usize, Vec3)>,
+    colors: Vec<Vec3>,
+    /// The pixels that see a surface, and where.
+    points: Vec<(usize, Vec3)>,
 }
 
-impl PictureTracer<'_> {
-    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for each of at most [`GROUP`]
-    /// rays.
-    fn sample_colors(&mut self, camera_rays: &[Ray]) -> Vec<Vec3> {
+impl<'a> PictureTracer<'a> {
+    fn new(renderer: &'a PhotonMappingRenderer, lanes: Width, views: &'a Views) -> Self {
+        Self {
+            renderer,
+            lanes,
+            views,
+            searched: HashMap::new(),
+            rays: Rays::default(),
+            cells: [0; GROUP],
+            hits: Hits::default(),
+            shadows: Rays::default(),
+            obstacles: Hits::default(),
+            shaded: Vec::with_capacity(GROUP),
+            colors: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+
+    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for the pixels of a row, whose
+    /// rays are those of `camera_ray`.
+    fn sample_colors(&mut self, width: usize, camera_ray: impl Fn(usize) -> Ray) -> &[Vec3] {
         let scene = &self.renderer.stored_scene;
-        let states = self.trace(camera_rays);
-        let hits = || states.iter().enumerate().filter_map(|(p, s)| Some((p, s.as_ref()?)));
-        let mut colors = vec![Vec3::ZERO; camera_rays.len()];
+        self.colors.clear();
+        self.colors.resize(width, Vec3::ZERO);
+        self.points.clear();
+        for first in (0..width).step_by(GROUP) {
+            let count = GROUP.min(width - first);
+            for lane in 0..count {
+                self.rays.set(lane, &camera_ray(first + lane));
+            }
+            self.look(count);
+            let mut seen = Seen::default();
+            for lane in 0..count {
+                if let Some(triangle) = scene.triangles().get(self.hits.triangle[lane] as usize) {
+                    let t = self.hits.t[lane];
+                    let point = self.rays.point(lane, t);
+                    let needed = scene.offset(self.hits.triangle[lane] as usize, point, t);
+                    seen.push(point, triangle.normal, needed, self.hits.triangle[lane]);
+                    self.points.push((first + lane, point));
+                }
+            }
+            self.ask_lights(&seen);
+        }
+        self.shade();
+        for (pixel, point) in &self.points {
+            if self.views.dots.may_have(*point)
+                && self.renderer.diffuse_map.any_within_cube(*point, PHOTON_DOT_RADIUS)
+            {
+                self.colors[*pixel] += Vec3::X;
+            }
+        }
+        &self.colors
+    }
+
+    /// Adds a shadow ray for every light that shines on one of the last points, which are `seen`.
+    fn ask_lights(&mut self, seen: &Seen) {
+        let scene = &self.renderer.stored_scene;
+        let pixels = self.points.len() - seen.count;
+        let (mut rays, mut cosines) = (Rays::default(), [0.0; GROUP]);
         for light in scene.lights() {
-            let (lit, shadow_rays): (Vec<_>, Vec<_>) = hits()
-                .filter_map(|(pixel, state)| {
-                    let (shadow_ray, color) = light_towards(scene, state, light);
-                    (color != Vec3::ZERO).then_some(((pixel, color), shadow_ray))
-                })
-                .unzip();
-            for ((pixel, color), obstacle) in lit.into_iter().zip(self.trace(&shadow_rays)) {
-                // Any obstacle before the light hides it, so the closest one does.
-                if obstacle.is_none() {
-                    colors[pixel] += color;
+            let (rays, cosines) = (&mut rays, &mut cosines);
+            self.lanes.run(Towards { seen, light: light.position, rays, cosines });
+            for lane in 0..seen.count {
+                let triangle = &scene.triangles()[seen.triangles[lane] as usize];
+                let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
+                let diffuse_response = mesh_object.material.base_diffuse_reflection();
+                let color = diffuse_response * light.color * cosines[lane];
+                if color == Vec3::ZERO {
+                    continue;
+                }
+                self.shadows.copy(self.shaded.len(), rays, lane);
+                self.shaded.push((self.points[pixels + lane].0, color));
+                if self.shaded.len() == GROUP {
+                    self.shade();
                 }
             }
         }
-        for (pixel, state) in hits() {
-            let point = state.intersection_point();
-            if self.renderer.diffuse_map.any_within_cube(point, PHOTON_DOT_RADIUS) {
-                colors[pixel] += Vec3::X;
-            }
-        }
-        colors
     }
 
-    /// What [`photon_mapping::scene::Scene::trace`] gives for each of at most [`GROUP`] rays.
-    fn trace(&mut self, rays: &[Ray]) -> Vec<Option<IntersectionState>> {
-        if rays.is_empty() {
-            return Vec::new();
+    /// Finds what the first `count` camera rays meet.
+    fn look(&mut self, count: usize) {
+        let Self { renderer, lanes, views, searched, rays, cells, hits, .. } = self;
+        let scene = &renderer.stored_scene;
+        lanes.run(View { rays, cells });
+        let bits = cells[..count].iter().fold(0, |bits, c| bits | views.of_cells[*c as usize]);
+        let triangles = (0..scene.triangles().len() as u32).filter(|t| bits >> t & 1 == 1);
+        let seen = searched.entry(bits).or_insert_with(|| SharedCorners::of(scene, triangles));
+        lanes.run(Closest { scene: seen, rays, hits });
+        hits.settle(scene, rays, count);
+    }
+
+    /// Adds the colours that arrive along the waiting shadow rays.
+    fn shade(&mut self) {
+        let Self { renderer, lanes, views, shadows, obstacles: hits, shaded, colors, .. } = self;
+        lanes.run(Closest { scene: &views.all, rays: shadows, hits });
+        hits.settle(&renderer.stored_scene, shadows, shaded.len());
+        for (lane, (pixel, color)) in shaded.drain(..).enumerate() {
+            // Any obstacle before the light hides it, so the closest one does.
+            if hits.triangle[lane] == NONE || hits.t[lane] >= shadows.max_t[lane] {
+                colors[pixel] += color;
+            }
         }
-        for (lane, ray) in rays.iter().enumerate() {
-            self.rays.set(lane, ray);
-        }
-        let Self { renderer, lanes, corners, rays: columns, hits } = self;
-        lanes.run(Closest { scene: corners, rays: columns, hits });
-        hits.settle(&renderer.stored_scene, columns, rays.len());
-        rays.iter()
-            .enumerate()
-            .map(|(lane, ray)| {
-                let (t, triangle) = (hits.t[lane], hits.triangle[lane]);
-                (triangle != NONE && t < ray.max_t).then_some(IntersectionState {
-                    intersection_ray: *ray,
-                    intersection_t: t,
-                    intersected_primitive: triangle as usize,
-                })
-            })
-            .collect()
     }
 }

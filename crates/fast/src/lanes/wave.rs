@@ -17,6 +17,23 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::ray::Ray;
 
+/// A part of the way of a wave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Photons draw their directions, and those that may go on are sorted out.
+    Emission,
+    /// What these meet first.
+    FirstHit,
+    /// The numbers for roulette and scattering that the first block did not have.
+    Numbers,
+    /// Roulette, and the direction after it.
+    Scattering,
+    /// What scattered photons meet.
+    LaterHits,
+    /// The records of what is stored, in order.
+    Records,
+}
+
 /// A photon on its way from the light.
 #[derive(Clone, Copy, Debug)]
 struct Departure {
@@ -51,7 +68,8 @@ impl Arrivals {
 }
 
 impl LaneTracer<'_> {
-    /// Traces the photons `photons` of `light` and adds what they store to `records`.
+    /// Traces the photons `photons` of `light` and adds what they store to `records`. `done` is told
+    /// of every part that is done, for those who take the time.
     pub(super) fn trace_wave(
         &self,
         light: &PointLight,
@@ -59,14 +77,15 @@ impl LaneTracer<'_> {
         light_intensity: Vec3,
         photons: Range<u64>,
         records: &mut Vec<PhotonRecord>,
+        done: &mut impl FnMut(Stage),
     ) {
         if self.renderer.max_photon_bounces < 0 {
             return;
         }
-        let mut arrivals = self.emit(light, outlook, photons);
+        let mut arrivals = self.emit(light, outlook, photons, done);
         let mut by_bounce: Vec<Vec<PhotonRecord>> = Vec::new();
         for bounce in 1..=self.renderer.max_photon_bounces {
-            arrivals = self.scatter(&arrivals);
+            arrivals = self.scatter(&arrivals, done);
             if arrivals.places.is_empty() {
                 break;
             }
@@ -81,8 +100,10 @@ impl LaneTracer<'_> {
                     surface: self.surface(arrival).mesh_object,
                 });
             by_bounce.push(stored.collect());
+            done(Stage::Records);
         }
         join(&by_bounce, records);
+        done(Stage::Records);
     }
 
     fn surface(&self, arrival: &Arrival) -> &LaneSurface {
@@ -91,8 +112,15 @@ impl LaneTracer<'_> {
 
     /// Where the photons `photons` of `light` hit first, in order, without some that are absorbed
     /// there.
-    fn emit(&self, light: &PointLight, outlook: &Outlook, photons: Range<u64>) -> Arrivals {
+    fn emit(
+        &self,
+        light: &PointLight,
+        outlook: &Outlook,
+        photons: Range<u64>,
+        done: &mut impl FnMut(Stage),
+    ) -> Arrivals {
         let mut departures = self.depart(outlook, photons);
+        done(Stage::Emission);
         let triangles = self.surfaces.len();
         let mut first_hits = FirstHits::new(outlook, self.width, triangles, departures.len());
         let mut point = [[0.0; emission::GROUP]; 3];
@@ -121,7 +149,9 @@ impl LaneTracer<'_> {
                 arrivals.draws.push(draws);
             }
         }
+        done(Stage::FirstHit);
         self.complete(&mut arrivals.draws);
+        done(Stage::Numbers);
         arrivals
     }
 
@@ -201,7 +231,7 @@ impl LaneTracer<'_> {
 
     /// Plays the roulette for all of `arrivals`, scatters those that survive, and gives what these
     /// hit next.
-    fn scatter(&self, arrivals: &Arrivals) -> Arrivals {
+    fn scatter(&self, arrivals: &Arrivals, done: &mut impl FnMut(Stage)) -> Arrivals {
         let mut survivors = Vec::with_capacity(arrivals.places.len());
         for (place, (arrival, draws)) in arrivals.places.iter().zip(&arrivals.draws).enumerate() {
             if number(draws.words[0]) < self.surface(arrival).probability_of_reflection {
@@ -237,6 +267,7 @@ impl LaneTracer<'_> {
                 offset: self.offset,
                 rays: &mut rays,
             });
+            done(Stage::Scattering);
             self.width.run(Closest { scene: &self.corners, rays: &rays, hits: &mut hits });
             hits.settle(&self.renderer.stored_scene, &rays, group.len());
             for (lane, place) in group.iter().enumerate() {
@@ -252,8 +283,10 @@ impl LaneTracer<'_> {
                     next.draws.push(Draws { photon, drawn: drawn + 3, words: [0; 3] });
                 }
             }
+            done(Stage::LaterHits);
         }
         draws::fill(self.width, self.renderer.seed, &mut next.draws);
+        done(Stage::Numbers);
         next
     }
 }
