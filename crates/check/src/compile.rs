@@ -83,7 +83,7 @@ impl<'kit> Workshop<'kit> {
         self.headers().missing()
     }
 
-    fn headers(&self) -> MutexGuard<'_, Headers> {
+    pub(crate) fn headers(&self) -> MutexGuard<'_, Headers> {
         self.headers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -18,15 +18,24 @@ pub struct BuildError {
     pub line: Option<u32>,
     /// What the compiler says.
     pub message: String,
-    /// A name that is declared in no file that was handed in.
+    /// A name that neither the framework of the assignment has nor the student's files declare.
     pub missing: Option<String>,
+    /// Whether a header of the framework declares it that was changed and handed in.
+    pub is_in_changed_framework: bool,
     /// Headers that are included, and were not handed in.
     pub missing_headers: Vec<String>,
 }
 
 impl BuildError {
     pub(crate) fn plain(message: String) -> Self {
-        Self { file: None, line: None, message, missing: None, missing_headers: Vec::new() }
+        Self {
+            file: None,
+            line: None,
+            message,
+            missing: None,
+            is_in_changed_framework: false,
+            missing_headers: Vec::new(),
+        }
     }
 
     /// In one line.
@@ -38,7 +47,10 @@ impl BuildError {
         let missing = self
             .missing
             .as_ref()
-            .map(|missing| format!("; `{missing}` is declared in no file you handed in"))
+            .map(|missing| match self.is_in_changed_framework {
+                true => format!("; `{missing}` is no part of the assignment's framework"),
+                false => format!("; `{missing}` is declared in no file you handed in"),
+            })
             .unwrap_or_default();
         let headers = match self.missing_headers.as_slice() {
             [] => String::new(),
@@ -83,6 +95,9 @@ impl Workshop<'_> {
             file: shown.or(Some(error.file)),
             line: Some(error.line),
             message: error.message,
+            is_in_changed_framework: missing
+                .as_ref()
+                .is_some_and(|name| self.headers().mention(name)),
             missing,
             missing_headers,
         })

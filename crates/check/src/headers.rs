@@ -66,6 +66,14 @@ impl Headers {
         missing.map(|(name, _)| name.clone()).collect()
     }
 
+    /// Whether a header that was handed in mentions `word`.
+    pub(crate) fn mention(&self, word: &str) -> bool {
+        let mentions = |path: &PathBuf| {
+            fs::read(path).is_ok_and(|text| String::from_utf8_lossy(&text).contains(word))
+        };
+        self.handed_in.iter().any(mentions)
+    }
+
     /// The file whose path has the most last parts in common with `name`, whatever their case.
     fn find(&self, name: &str) -> Option<PathBuf> {
         let mut best = (0, None);

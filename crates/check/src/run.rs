@@ -42,6 +42,8 @@ pub enum Death {
     StackOverflow,
     /// It printed too much.
     TooMuchOutput,
+    /// It wrote to the pipe of the recorder.
+    Forged,
     /// An exception left the function.
     Exception {
         /// What it says.
@@ -85,6 +87,7 @@ impl Death {
             Self::TooMuchOutput => {
                 format!("prints more than {} MB, and is ended", MOST_BYTES >> 20)
             }
+            Self::Forged => "writes to the pipe that records what it does, and is ended".to_owned(),
             Self::Exception { what } if what.contains("bad_alloc") => {
                 format!("uses more than {MEMORY} MB of memory")
             }
@@ -229,6 +232,9 @@ fn run_from(
 }
 
 fn death_of(outcome: &Outcome, log: &Log, is_whole: bool, time: Duration) -> Death {
+    if log.is_broken {
+        return Death::Forged;
+    }
     if log.stack_overflowed {
         return Death::StackOverflow;
     }

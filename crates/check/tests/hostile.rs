@@ -17,7 +17,7 @@ const TIME: Duration = Duration::from_secs(2);
 
 /// What the light does, and what is said of it under Photon Emission; nothing where it comes to
 /// nothing.
-const DEEDS: [(&str, &str); 13] = [
+const DEEDS: [(&str, &str); 15] = [
     ("loop", "does not end within"),
     ("crash", "segmentation fault"),
     ("abort", "aborts"),
@@ -31,6 +31,8 @@ const DEEDS: [(&str, &str); 13] = [
     ("socket", ""),
     ("file", ""),
     ("print", ""),
+    ("forge", ""),
+    ("forge-all", "writes to the pipe"),
 ];
 
 #[test]

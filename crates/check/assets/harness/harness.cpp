@@ -326,6 +326,7 @@ void run_whole(const Plan& plan, const Step& step) {
 } // namespace
 
 int main(int argc, char** argv) {
+    open_pipe();
     watch_the_stack();
     Plan plan;
     if (argc != 3 || !read_plan(argv[1], plan)) {

@@ -28,7 +28,7 @@ const IN_EVERY_CALL: &str =
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
                           grow with every call of TracePhoton.";
 
-pub(super) fn judge(observed: &Observed) -> Verdict {
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonStorage);
     let calls =
         |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
@@ -72,7 +72,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         .into_iter()
         .filter(|step| !(stores_before_dying && is_on_black_wall(*step)))
         .collect();
-    verdict.finish(observed, "TracePhoton", &own)
+    verdict.finish(observed, "TracePhoton", &own, told)
 }
 
 fn is_on_black_wall(step: Step) -> bool {
