@@ -193,6 +193,18 @@ pub(crate) fn undefined_names(printed: &str) -> Vec<String> {
     printed.lines().filter_map(name_in).collect()
 }
 
+/// The name that the linker finds twice, as GNU's and Apple's write it.
+pub(crate) fn defined_twice(printed: &str) -> Option<String> {
+    let name_in = |line: &str| {
+        let (_, name) = line
+            .split_once("multiple definition of ")
+            .or_else(|| line.split_once("duplicate symbol "))?;
+        let name = name.trim_start_matches(['`', '\'', '"']);
+        name.split([';', '\'', '"']).next().map(str::to_owned)
+    };
+    printed.lines().find_map(name_in)
+}
+
 /// The last word of a function's or class's full name: `f` of `space::f(float)`.
 pub(crate) fn last_word(name: &str) -> &str {
     let name = name.split(['(', '<', '[']).next().unwrap_or(name);
@@ -249,6 +261,8 @@ mod tests {
         for printed in [of_gnu, of_apple] {
             assert_eq!(undefined_names(printed), ["utils::uniform(float)"]);
         }
+        let twice = "a.cpp:(.text+0x0): multiple definition of `f(int)'; b.o: first defined here";
+        assert_eq!(defined_twice(twice).as_deref(), Some("f(int)"));
         assert_eq!(last_word("utils::uniform(float)"), "uniform");
         assert_eq!(last_word("vtable for Sampler"), "Sampler");
     }

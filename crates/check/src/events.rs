@@ -49,6 +49,8 @@ pub struct Call {
     pub traces: Vec<Trace>,
     /// The photons stored, in order.
     pub stored: Vec<Stored>,
+    /// Whether the call came to its end.
+    pub ended: bool,
     /// How many random numbers were drawn from the functions that the harness stands behind.
     pub drawn: u32,
     /// What an exception said that ended the call.
@@ -76,6 +78,14 @@ pub struct StepLog {
     pub other_signature: bool,
     /// Whether the step came to its end.
     pub ended: bool,
+}
+
+impl StepLog {
+    /// The calls that came to their end. Of another, it is not known what it would have done.
+    pub fn ended_calls(&self) -> &[Call] {
+        let ended = self.calls.iter().take_while(|call| call.ended).count();
+        &self.calls[..ended]
+    }
 }
 
 /// The whole run.
@@ -208,7 +218,8 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
         }
         b'E' => {
             let drawn = rest.u32()?;
-            call(log).drawn = drawn;
+            let call = call(log);
+            (call.drawn, call.ended) = (drawn, true);
         }
         b'X' => {
             let length = rest.u16()? as usize;

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Verdict;
-use crate::events::Call;
+use crate::events::{Call, StepLog};
 use crate::plan::{COLOURS, Step};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
@@ -125,8 +125,7 @@ const RULES: [Rule; 14] = [
 
 pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonScatteringAbsorption);
-    let calls =
-        |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
+    let calls = |step: Step| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
     // What happens at the first hit, by the wall's colour.
     let walls: Vec<_> = [
         (Step::Black, Vec3::ZERO),
