@@ -10,7 +10,9 @@ use std::time::Duration;
 pub use crate::diagnostics::BuildError;
 use crate::diagnostics::{missing_header, missing_in_list, parse_error};
 use crate::error::CheckError;
-use crate::find::{LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, Submission, beside};
+use crate::find::{
+    LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, Submission, beside, read_source,
+};
 use crate::headers::Headers;
 use crate::kit::{Kit, write};
 use crate::sandbox::{Ending, Limits, Outcome, Program, search_path};
@@ -59,12 +61,12 @@ impl<'kit> Workshop<'kit> {
                 // Neither of the two may stand where the other belongs.
                 if other_name != LIGHT && other_name != RENDERER {
                     // What cannot be read is missed by the compiler, if it is needed.
-                    if let Ok(content) = fs::read(&other) {
+                    if let Ok(content) = read_source(&other) {
                         write(&place.join(other_name), &content)?;
                     }
                 }
             }
-            write(&place.join(name), &fs::read(file).map_err(unreadable)?)?;
+            write(&place.join(name), &read_source(file).map_err(unreadable)?)?;
             let original = file.parent().unwrap_or(Path::new("")).to_owned();
             originals.push((place, original));
         }
@@ -83,7 +85,7 @@ impl<'kit> Workshop<'kit> {
         self.headers().missing()
     }
 
-    fn headers(&self) -> MutexGuard<'_, Headers> {
+    pub(crate) fn headers(&self) -> MutexGuard<'_, Headers> {
         self.headers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -150,18 +152,11 @@ impl<'kit> Workshop<'kit> {
     ) -> Result<Result<Object, BuildError>, CheckError> {
         let mut error = BuildError::plain(String::new());
         for standard in STANDARDS {
-            for with_found in [true, false] {
-                if !with_found && !self.headers().any_found() {
-                    continue;
-                }
-                let attempt = Attempt { source, is_harness, standard, with_found };
-                match self.try_once(&attempt)? {
-                    Ok(object) => return Ok(Ok(object)),
-                    Err(Failure { error, is_final: true }) => return Ok(Err(error)),
-                    // The later standard knows more names, so its complaint is the true one.
-                    Err(failure) if with_found => error = failure.error,
-                    Err(_) => {}
-                }
+            match self.try_once(&Attempt { source, is_harness, standard })? {
+                Ok(object) => return Ok(Ok(object)),
+                Err(Failure { error, is_final: true }) => return Ok(Err(error)),
+                // The later standard knows more names, so its complaint is the true one.
+                Err(failure) => error = failure.error,
             }
         }
         Ok(Err(error))
@@ -174,6 +169,7 @@ impl<'kit> Workshop<'kit> {
             .fold(7_u64, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)));
         let object = self.path().join(format!("{number:x}.o"));
         let list = object.with_extension("d");
+        let mut unfit = None;
         loop {
             let mut command = self.command(attempt);
             for argument in ["-MD".as_ref(), "-MF".as_ref(), list.as_os_str(), "-o".as_ref()] {
@@ -185,19 +181,34 @@ impl<'kit> Workshop<'kit> {
                 let sources = self.sources_of(&fs::read_to_string(&list).unwrap_or_default());
                 return Ok(Ok(Object { path: object, sources }));
             }
-            let lacks_header = outcome
-                .printed
-                .lines()
-                .filter_map(parse_error)
-                .find_map(|error| missing_header(&error.message).map(str::to_owned));
-            match lacks_header {
-                Some(name) if name == "glm/glm.hpp" => return Err(CheckError::NoGlm),
-                Some(_) if self.supply_headers(attempt)? => {}
-                _ => {
-                    let is_final = matches!(outcome.ending, Ending::TimeOut | Ending::Signal(_));
-                    let error = self.explain(&outcome, attempt.is_harness)?;
-                    return Ok(Err(Failure { error, is_final }));
-                }
+            let error = self.explain(&outcome, attempt.is_harness)?;
+            let is_final = matches!(outcome.ending, Ending::TimeOut | Ending::Signal(_));
+            if is_final || !self.change_headers(attempt, &outcome.printed)? {
+                // Without the headers that were given up, other errors only follow.
+                let error = unfit.unwrap_or(error);
+                return Ok(Err(Failure { error, is_final }));
+            }
+            if missing_header(&error.message).is_none() {
+                unfit.get_or_insert(error);
+            }
+        }
+    }
+
+    /// Writes the headers that `attempt` lacks, or empties one that does not fit; whether there is
+    /// any.
+    fn change_headers(&self, attempt: &Attempt<'_>, printed: &str) -> Result<bool, CheckError> {
+        let lines = || printed.lines().map(|line| (line, parse_error(line)));
+        let lacks =
+            lines().find_map(|(_, error)| Some(missing_header(&error?.message)?.to_owned()));
+        match lacks {
+            Some(name) if name == "glm/glm.hpp" => Err(CheckError::NoGlm),
+            Some(_) => self.supply_headers(attempt),
+            None => {
+                let Some((line, Some(error))) = lines().find(|(_, error)| error.is_some()) else {
+                    return Ok(false);
+                };
+                let before = printed.find(line).unwrap_or_default();
+                self.headers().give_up(&printed[..before], &error.file)
             }
         }
     }
@@ -224,7 +235,7 @@ impl<'kit> Workshop<'kit> {
         if let Some(glm) = &self.kit.glm {
             folder("-I", glm);
         }
-        folder("-idirafter", &self.headers().folder(attempt.with_found));
+        folder("-idirafter", &self.headers().folder());
         command
     }
 
@@ -271,7 +282,6 @@ struct Attempt<'a> {
     source: &'a Path,
     is_harness: bool,
     standard: &'static str,
-    with_found: bool,
 }
 
 pub(crate) struct Object {

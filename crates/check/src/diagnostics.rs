@@ -18,15 +18,24 @@ pub struct BuildError {
     pub line: Option<u32>,
     /// What the compiler says.
     pub message: String,
-    /// A name that is declared in no file that was handed in.
+    /// A name that neither the framework of the assignment has nor the student's files declare.
     pub missing: Option<String>,
+    /// Whether a header of the framework declares it that was changed and handed in.
+    pub is_in_changed_framework: bool,
     /// Headers that are included, and were not handed in.
     pub missing_headers: Vec<String>,
 }
 
 impl BuildError {
     pub(crate) fn plain(message: String) -> Self {
-        Self { file: None, line: None, message, missing: None, missing_headers: Vec::new() }
+        Self {
+            file: None,
+            line: None,
+            message,
+            missing: None,
+            is_in_changed_framework: false,
+            missing_headers: Vec::new(),
+        }
     }
 
     /// In one line.
@@ -38,7 +47,10 @@ impl BuildError {
         let missing = self
             .missing
             .as_ref()
-            .map(|missing| format!("; `{missing}` is declared in no file you handed in"))
+            .map(|missing| match self.is_in_changed_framework {
+                true => format!("; `{missing}` is no part of the assignment's framework"),
+                false => format!("; `{missing}` is declared in no file you handed in"),
+            })
             .unwrap_or_default();
         let headers = match self.missing_headers.as_slice() {
             [] => String::new(),
@@ -83,6 +95,9 @@ impl Workshop<'_> {
             file: shown.or(Some(error.file)),
             line: Some(error.line),
             message: error.message,
+            is_in_changed_framework: missing
+                .as_ref()
+                .is_some_and(|name| self.headers().mention(name)),
             missing,
             missing_headers,
         })
@@ -178,6 +193,18 @@ pub(crate) fn undefined_names(printed: &str) -> Vec<String> {
     printed.lines().filter_map(name_in).collect()
 }
 
+/// The name that the linker finds twice, as GNU's and Apple's write it.
+pub(crate) fn defined_twice(printed: &str) -> Option<String> {
+    let name_in = |line: &str| {
+        let (_, name) = line
+            .split_once("multiple definition of ")
+            .or_else(|| line.split_once("duplicate symbol "))?;
+        let name = name.trim_start_matches(['`', '\'', '"']);
+        name.split([';', '\'', '"']).next().map(str::to_owned)
+    };
+    printed.lines().find_map(name_in)
+}
+
 /// The last word of a function's or class's full name: `f` of `space::f(float)`.
 pub(crate) fn last_word(name: &str) -> &str {
     let name = name.split(['(', '<', '[']).next().unwrap_or(name);
@@ -234,6 +261,8 @@ mod tests {
         for printed in [of_gnu, of_apple] {
             assert_eq!(undefined_names(printed), ["utils::uniform(float)"]);
         }
+        let twice = "a.cpp:(.text+0x0): multiple definition of `f(int)'; b.o: first defined here";
+        assert_eq!(defined_twice(twice).as_deref(), Some("f(int)"));
         assert_eq!(last_word("utils::uniform(float)"), "uniform");
         assert_eq!(last_word("vtable for Sampler"), "Sampler");
     }

@@ -49,6 +49,8 @@ pub struct Call {
     pub traces: Vec<Trace>,
     /// The photons stored, in order.
     pub stored: Vec<Stored>,
+    /// Whether the call came to its end.
+    pub ended: bool,
     /// How many random numbers were drawn from the functions that the harness stands behind.
     pub drawn: u32,
     /// What an exception said that ended the call.
@@ -76,6 +78,14 @@ pub struct StepLog {
     pub other_signature: bool,
     /// Whether the step came to its end.
     pub ended: bool,
+}
+
+impl StepLog {
+    /// The calls that came to their end. Of another, it is not known what it would have done.
+    pub fn ended_calls(&self) -> &[Call] {
+        let ended = self.calls.iter().take_while(|call| call.ended).count();
+        &self.calls[..ended]
+    }
 }
 
 /// The whole run.
@@ -121,22 +131,50 @@ pub struct Log {
     pub is_broken: bool,
 }
 
-/// Reads messages from pieces that end anywhere.
+/// The bytes of the key that stands before every piece.
+const KEY_BYTES: usize = 8;
+/// The longest piece.
+const LONGEST: usize = 1 << 16;
+
+/// Reads messages from bytes that come in any portions.
 #[derive(Debug, Default)]
 pub struct Reader {
+    key: Option<[u8; KEY_BYTES]>,
+    /// What is no whole piece yet.
     waiting: Vec<u8>,
+    /// What is no whole message yet.
+    messages: Vec<u8>,
 }
 
 impl Reader {
-    /// Adds what `piece` tells to `log`.
-    pub fn read(&mut self, piece: &[u8], log: &mut Log) {
-        self.waiting.extend_from_slice(piece);
+    /// Adds what `portion` tells to `log`.
+    pub fn read(&mut self, portion: &[u8], log: &mut Log) {
+        self.waiting.extend_from_slice(portion);
+        let mut pieces = Bytes { bytes: &self.waiting, at: 0 };
+        let (mut read, mut is_forged) = (0, false);
+        if self.key.is_none() {
+            self.key = pieces.array();
+            read = pieces.at;
+        }
+        while let (Some(key), Some(found)) = (self.key, pieces.array()) {
+            let Some(length) = pieces.u32() else { break };
+            if found != key || length as usize > LONGEST {
+                is_forged = true;
+                break;
+            }
+            let Some(piece) = pieces.take(length as usize) else { break };
+            self.messages.extend_from_slice(piece);
+            read = pieces.at;
+        }
+        self.waiting.drain(..read);
         let mut at = 0;
         while !log.is_broken {
-            let Some(length) = message(&self.waiting[at..], log) else { break };
+            let Some(length) = message(&self.messages[at..], log) else { break };
             at += length;
         }
-        self.waiting.drain(..at);
+        self.messages.drain(..at);
+        // What came before it is true.
+        log.is_broken |= is_forged;
     }
 }
 
@@ -180,7 +218,8 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
         }
         b'E' => {
             let drawn = rest.u32()?;
-            call(log).drawn = drawn;
+            let call = call(log);
+            (call.drawn, call.ended) = (drawn, true);
         }
         b'X' => {
             let length = rest.u16()? as usize;
@@ -273,5 +312,42 @@ impl<'a> Bytes<'a> {
 
     fn vector(&mut self) -> Option<Vec3> {
         Some(Vec3::new(self.f32()?, self.f32()?, self.f32()?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(portions: &[&[u8]]) -> Log {
+        let (mut reader, mut log) = (Reader::default(), Log::default());
+        portions.iter().for_each(|portion| reader.read(portion, &mut log));
+        log
+    }
+
+    fn piece(key: &[u8], messages: &[u8]) -> Vec<u8> {
+        let length = u32::try_from(messages.len()).expect("it is short").to_ne_bytes();
+        [key, &length, messages].concat()
+    }
+
+    #[test]
+    fn pieces_and_messages_may_end_anywhere() {
+        let key = b"12345678";
+        let begins = [&b"B"[..], &4_u32.to_ne_bytes()].concat();
+        let pieces = [piece(key, &begins[..2]), piece(key, &begins[2..]), piece(key, b"Q")];
+        let all = [&key[..], &pieces.concat()].concat();
+        for cut in 0..all.len() {
+            let log = read(&[&all[..cut], &all[cut..]]);
+            assert!(!log.is_broken && log.steps[4].ended, "cut at {cut}: {log:?}");
+        }
+    }
+
+    /// What a submission writes to the pipe by itself tells nothing.
+    #[test]
+    fn a_piece_with_another_key_is_told() {
+        let key = b"12345678";
+        let forged = [&key[..], &piece(b"87654321", b"Z")].concat();
+        let log = read(&[&forged]);
+        assert!(log.is_broken && !log.is_complete);
     }
 }

@@ -1,8 +1,10 @@
 //! The two files of a submission, wherever they lie in what was handed in.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use encoding_rs::{Encoding, UTF_8};
 
 use crate::error::CheckError;
 
@@ -14,6 +16,10 @@ pub const RENDERER: &str = "PhotonMappingRenderer.cpp";
 pub const LIGHT_FOLDER: &str = "common/Scene/Lights/Point";
 /// Where the framework keeps the renderer's files.
 pub const RENDERER_FOLDER: &str = "common/Rendering/Renderer/Photon";
+/// What the light's file defines.
+const EMISSION: &str = "PointLight::GenerateRandomPhotonRay";
+/// What the renderer's file defines.
+const TRACING: &str = "PhotonMappingRenderer::GenericPhotonMapGeneration";
 
 /// Folders deeper than this are not searched.
 const DEEPEST: usize = 12;
@@ -59,8 +65,9 @@ impl Submission {
         let mut submission = Self { name: name_of(path), ..Self::default() };
         let mut search = Search::default();
         search.look_into(folder, 0);
-        submission.light = search.choose(LIGHT, LIGHT_FOLDER, &mut submission.notes);
-        submission.renderer = search.choose(RENDERER, RENDERER_FOLDER, &mut submission.notes);
+        submission.light = search.choose([LIGHT, LIGHT_FOLDER, EMISSION], &mut submission.notes);
+        submission.renderer =
+            search.choose([RENDERER, RENDERER_FOLDER, TRACING], &mut submission.notes);
         submission.root = Some(folder.to_owned());
         submission.headers = search.headers;
         if search.files >= MOST_FILES {
@@ -126,6 +133,21 @@ fn is_hidden(path: &Path) -> bool {
     name.starts_with('.') || name == "__MACOSX" || name == "CMakeFiles"
 }
 
+/// Source code in UTF-8, which is what all compilers read.
+pub(crate) fn read_source(path: &Path) -> io::Result<Vec<u8>> {
+    let bytes = fs::read(path)?;
+    Ok(match Encoding::for_bom(&bytes) {
+        Some((encoding, _)) if encoding != UTF_8 => {
+            encoding.decode(&bytes).0.into_owned().into_bytes()
+        }
+        _ => bytes,
+    })
+}
+
+fn defines(source: &Path, function: &str) -> bool {
+    read_source(source).is_ok_and(|text| String::from_utf8_lossy(&text).contains(function))
+}
+
 fn has_extension(path: &Path, extensions: &[&str]) -> bool {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     extensions.contains(&&*extension)
@@ -135,6 +157,7 @@ fn has_extension(path: &Path, extensions: &[&str]) -> bool {
 struct Search {
     found: BTreeMap<String, Vec<PathBuf>>,
     headers: Vec<PathBuf>,
+    sources: Vec<PathBuf>,
     files: usize,
 }
 
@@ -164,17 +187,31 @@ impl Search {
                 self.found.entry(name.into_owned()).or_default().push(path);
             } else if has_extension(&path, &HEADERS) {
                 self.headers.push(path);
+            } else if has_extension(&path, &SOURCES) {
+                self.sources.push(path);
             }
         }
     }
 
-    /// Of several files with one name, the one where the framework has it, else the one nearest to
+    /// Of several files with one name or one function, the one where the framework has it, else the one nearest to
     /// the top.
-    fn choose(&self, name: &str, home: &str, notes: &mut Vec<String>) -> Option<PathBuf> {
-        let all = self.found.get(name)?;
+    fn choose(
+        &self,
+        [name, home, function]: [&str; 3],
+        notes: &mut Vec<String>,
+    ) -> Option<PathBuf> {
+        let by_content = || {
+            let sources = self.sources.iter();
+            sources.filter(|source| defines(source, function)).cloned().collect::<Vec<_>>()
+        };
+        // Systems for handing in rename files.
+        let all = self.found.get(name).cloned().unwrap_or_else(by_content);
         let at_home = |path: &&PathBuf| path.parent().is_some_and(|parent| parent.ends_with(home));
         let depth = |path: &&PathBuf| path.components().count();
         let chosen = all.iter().min_by_key(|path| (!at_home(path), depth(path)))?;
+        if chosen.file_name().is_some_and(|other| other != name) {
+            notes.push(format!("{} was taken for {name}", chosen.display()));
+        }
         let content = fs::read(chosen).ok();
         if all.iter().any(|other| fs::read(other).ok() != content) {
             notes.push(format!(

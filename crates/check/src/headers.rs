@@ -1,7 +1,7 @@
 //! Headers that no folder has where they are included: those in another folder of the submission,
 //! those written with other letters (`common\scene\Scene.h`), and those that nobody needs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::error::CheckError;
 use crate::kit::{Kit, write};
 
 /// Deep enough for every `../` in an include.
-const DEPTH: &str = "1/2/3/4/5/6/7/8";
+const FOLDER: &str = "others/1/2/3/4/5/6/7/8";
 
 /// Headers that stand where the compiler looks last.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub(crate) struct Headers {
     handed_in: Vec<PathBuf>,
     /// The headers written, and where each was found, if it was.
     written: BTreeMap<String, Option<PathBuf>>,
+    /// Those that were found, and emptied.
+    given_up: BTreeSet<String>,
 }
 
 impl Headers {
@@ -29,13 +31,13 @@ impl Headers {
         let mut ours = files_below(&workshop.join("submission"));
         ours.extend(files_below(&kit.path().join("standin")));
         let (workshop, handed_in) = (workshop.to_owned(), handed_in.to_vec());
-        Self { workshop, ours, handed_in, written: BTreeMap::new() }
+        let (written, given_up) = Default::default();
+        Self { workshop, ours, handed_in, written, given_up }
     }
 
-    /// The folder where the compiler looks last: with the headers that were found, or with all of
-    /// them empty. A header of the framework itself may not fit the stand-in, and not be needed.
-    pub(crate) fn folder(&self, with_found: bool) -> PathBuf {
-        self.workshop.join(if with_found { "others" } else { "empty" }).join(DEPTH)
+    /// The folder where the compiler looks last.
+    pub(crate) fn folder(&self) -> PathBuf {
+        self.workshop.join(FOLDER)
     }
 
     /// Writes a header for each of `names`: one that includes the file with this name, wherever it
@@ -55,15 +57,35 @@ impl Headers {
         Ok(any_new)
     }
 
-    /// Whether any header was found in another place.
-    pub(crate) fn any_found(&self) -> bool {
-        self.written.values().any(Option::is_some)
+    /// Empties the header in which the compiler met its first error, if it is one that was found:
+    /// a header of the framework itself may not fit the stand-in, and not be needed. Answers
+    /// whether there is one. `printed` is what the compiler says up to that error, in `file`.
+    pub(crate) fn give_up(&mut self, printed: &str, file: &str) -> Result<bool, CheckError> {
+        let place = |found: &Path| {
+            let found = found.to_string_lossy();
+            // The compiler names the includes that lead to the error, the nearest first.
+            if found == file { Some(0) } else { printed.find(&*found).map(|at| at + 1) }
+        };
+        let places = self.written.iter().filter(|(name, _)| !self.given_up.contains(*name));
+        let places = places.filter_map(|(name, found)| Some((place(found.as_ref()?)?, name)));
+        let Some((_, name)) = places.min() else { return Ok(false) };
+        let name = name.clone();
+        self.write(&name, None)?;
+        Ok(self.given_up.insert(name))
     }
 
     /// The headers that were found nowhere.
     pub(crate) fn missing(&self) -> Vec<String> {
         let missing = self.written.iter().filter(|(_, found)| found.is_none());
         missing.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Whether a header that was handed in mentions `word`.
+    pub(crate) fn mention(&self, word: &str) -> bool {
+        let mentions = |path: &PathBuf| {
+            fs::read(path).is_ok_and(|text| String::from_utf8_lossy(&text).contains(word))
+        };
+        self.handed_in.iter().any(mentions)
     }
 
     /// The file whose path has the most last parts in common with `name`, whatever their case.
@@ -82,12 +104,11 @@ impl Headers {
     /// Whether it could be written: not outside of the folder.
     fn write(&self, name: &str, found: Option<&Path>) -> Result<bool, CheckError> {
         let ups = name.split('/').filter(|part| *part == "..").count();
-        if Path::new(name).is_absolute() || ups > DEPTH.split('/').count() {
+        if Path::new(name).is_absolute() || ups >= FOLDER.split('/').count() {
             return Ok(false);
         }
         let text = found.map(|found| format!("#include \"{}\"\n", found.display()));
-        write(&self.folder(true).join(name), text.unwrap_or_default().as_bytes())?;
-        write(&self.folder(false).join(name), b"")?;
+        write(&self.folder().join(name), text.unwrap_or_default().as_bytes())?;
         Ok(true)
     }
 }

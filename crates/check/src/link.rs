@@ -6,7 +6,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::compile::Workshop;
-use crate::diagnostics::{BuildError, first_line, last_word, paths_of_list, undefined_names};
+use crate::diagnostics::{
+    BuildError, defined_twice, first_line, last_word, paths_of_list, undefined_names,
+};
 use crate::error::CheckError;
 use crate::find::{LIGHT, RENDERER, SOURCES};
 use crate::sandbox::Ending;
@@ -36,6 +38,8 @@ impl Workshop<'_> {
         mut others: BTreeSet<PathBuf>,
     ) -> Result<Result<PathBuf, BuildError>, CheckError> {
         let mut tried = BTreeSet::new();
+        // Where the two files lie in one folder, all beside them was copied twice.
+        let mut contents = BTreeSet::new();
         let mut first_error = None;
         loop {
             let (error, names) = match self.link(&objects)? {
@@ -52,6 +56,11 @@ impl Workshop<'_> {
                 return Ok(Err(first_error.unwrap_or(error)));
             }
             for source in untried {
+                let content = fs::read(&source).unwrap_or_default();
+                tried.insert(source.clone());
+                if !contents.insert(content) {
+                    continue;
+                }
                 match self.compile(&source, false)? {
                     Ok(object) => {
                         objects.push(object.path);
@@ -61,7 +70,6 @@ impl Workshop<'_> {
                         first_error.get_or_insert(error);
                     }
                 }
-                tried.insert(source);
             }
         }
     }
@@ -82,7 +90,10 @@ impl Workshop<'_> {
         let names = undefined_names(&outcome.printed);
         let message = match names.first() {
             Some(name) => format!("`{name}` is defined in no file you handed in"),
-            None => first_line(&outcome.printed, "the linker failed"),
+            None => match defined_twice(&outcome.printed) {
+                Some(name) => format!("`{name}` is defined twice"),
+                None => first_line(&outcome.printed, "the linker failed"),
+            },
         };
         Ok(Err((BuildError::plain(message), names)))
     }

@@ -47,6 +47,8 @@ pub enum Death {
     StackOverflow,
     /// It printed too much.
     TooMuchOutput,
+    /// It wrote to the pipe of the recorder.
+    Forged,
     /// An exception left the function.
     Exception {
         /// What it says.
@@ -90,6 +92,7 @@ impl Death {
             Self::TooMuchOutput => {
                 format!("prints more than {} MB, and is ended", MOST_BYTES >> 20)
             }
+            Self::Forged => "writes to the pipe that records what it does, and is ended".to_owned(),
             Self::Exception { what } if what.contains("bad_alloc") => {
                 format!("uses more than {MEMORY} MB of memory")
             }
@@ -271,6 +274,9 @@ fn run_from(
 }
 
 fn death_of(outcome: &Outcome, log: &Log, time: Time) -> Death {
+    if log.is_broken {
+        return Death::Forged;
+    }
     if log.stack_overflowed {
         return Death::StackOverflow;
     }

@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(40);
 
 /// What the light does, and what is said of it under Photon Emission; nothing where it comes to
 /// nothing.
-const DEEDS: [(&str, &str); 13] = [
+const DEEDS: [(&str, &str); 15] = [
     ("loop", "does not end within"),
     ("crash", "segmentation fault"),
     ("abort", "aborts"),
@@ -33,6 +33,8 @@ const DEEDS: [(&str, &str); 13] = [
     ("socket", ""),
     ("file", ""),
     ("print", ""),
+    ("forge", ""),
+    ("forge-all", "writes to the pipe"),
 ];
 
 #[test]

@@ -77,36 +77,119 @@ fn a_missing_name_is_told_with_file_and_line() {
     assert!(error.line.is_some());
 }
 
-/// A whole checkout of the framework, with a helper of the student's own in another folder.
-#[test]
-fn a_checkout_brings_its_own_helpers() {
-    let Some(kit) = support::kit() else { return };
+/// The report on a submission of these files, and on its folder.
+fn report_on(files: &[(&str, Vec<u8>)]) -> Option<Report> {
+    let kit = support::kit()?;
     let folder = tempfile::tempdir().expect("a folder");
-    let write = |path: &str, text: &str| {
-        let path = folder.path().join("assignment8").join(path);
+    for (path, content) in files {
+        let path = folder.path().join(path);
         fs::create_dir_all(path.parent().expect("a folder")).expect("can be made");
-        fs::write(path, text).expect("can be written");
-    };
-    let read = |name: &str| {
-        fs::read_to_string(submissions().join("one_function").join(name)).expect("a file")
-    };
-    let light = read("PointLight.cpp").replace("((float)rand() / RAND_MAX)", "RandFloat01()");
-    let light = format!("#include \"common/Utility/utils.h\"\n{light}");
-    write("common/Scene/Lights/Point/PointLight.cpp", &light);
-    let renderer = read("PhotonMappingRenderer.cpp");
-    write("common/Rendering/Renderer/Photon/PhotonMappingRenderer.cpp", &renderer);
-    write("common/Utility/utils.h", "#pragma once\nfloat RandFloat01();\n");
-    let utils = "#include \"common/Utility/utils.h\"\n#include <cstdlib>\n\
-                 float RandFloat01() { return rand() / (float)RAND_MAX; }\n";
-    write("common/Utility/utils.cpp", utils);
-    // What the framework has and the stand-in does not need is of no interest.
-    write("main.cpp", "#error this is not compiled\n");
-    write("common/common.h", "#error nor is this read\n");
+        fs::write(path, content).expect("can be written");
+    }
     let submission = Submission::find(folder.path()).expect("a submission");
     let settings = Settings { photons: 2000, ..Settings::default() };
-    let report = check(&submission, kit, &settings).expect("it can be checked");
+    Some(check(&submission, kit, &settings).expect("it can be checked"))
+}
+
+fn read(name: &str) -> String {
+    fs::read_to_string(submissions().join("one_function").join(name)).expect("a file")
+}
+
+/// A whole checkout of the framework, with a helper of the student's own in another folder, in a
+/// folder with a space in its name. Headers are included that nobody needs, or in other letters.
+#[test]
+fn a_checkout_brings_its_own_helpers() {
+    let light = read("PointLight.cpp").replace("((float)rand() / RAND_MAX)", "RandFloat01()");
+    let light = format!(
+        "#include \"utility\\Utils.h\"\n#include <SDL2/SDL.h>\n#include \"../Area/AreaLight.h\"\n{light}"
+    );
+    let area_light = "#pragma once\n#include \"common/Scene/Lights/Light.h\"\n\
+                      class AreaLight : public Light { int Area() const override; };\n";
+    let utils = "#include \"common/Utility/utils.h\"\n#include <cstdlib>\n\
+                 float RandFloat01() { return rand() / (float)RAND_MAX; }\n";
+    let of = |text: &str| text.as_bytes().to_vec();
+    let report = report_on(&[
+        ("my homework/common/Scene/Lights/Point/PointLight.cpp", of(&light)),
+        (
+            "my homework/common/Rendering/Renderer/Photon/PhotonMappingRenderer.cpp",
+            of(&read("PhotonMappingRenderer.cpp")),
+        ),
+        ("my homework/common/Utility/utils.h", of("#pragma once\nfloat RandFloat01();\n")),
+        ("my homework/common/Utility/utils.cpp", of(utils)),
+        // What the framework has and the stand-in does not need is of no interest.
+        ("my homework/common/Scene/Lights/Area/AreaLight.h", of(area_light)),
+        ("my homework/common/Scene/Lights/Area/AreaLight.cpp", of("#error nor is this compiled\n")),
+        ("my homework/main.cpp", of("#error this is not compiled\n")),
+        ("my homework/common/common.h", of("#error nor is this read\n")),
+    ]);
+    let Some(report) = report else { return };
     assert_eq!(report.builds, Builds::Yes);
     let statuses: Vec<_> = report.sections.iter().map(|verdict| verdict.status).collect();
     assert_eq!(statuses, [Status::Right; 5], "{}", sections_text(&report));
     assert!(report.whole.is_reference(), "{:?}", report.whole.sentence(&report.sections));
+    let remark = report.remarks.iter().find(|remark| remark.contains("SDL2/SDL.h"));
+    assert!(remark.is_some_and(|remark| !remark.contains("Utils.h")), "{:?}", report.remarks);
+}
+
+/// Systems for handing in rename files, and some editors write UTF-16.
+#[test]
+fn renamed_files_in_utf_16_are_found() {
+    let number = "(float)rand() / RAND_MAX >= pr";
+    let renderer = read("PhotonMappingRenderer.cpp").replace(number, "rand() / RAND_MAX >= pr");
+    let utf_16 = std::iter::once(0xfeff).chain(renderer.encode_utf16());
+    let report = report_on(&[
+        ("doe_PointLight-1.cpp", read("PointLight.cpp").into_bytes()),
+        ("doe_Renderer.cpp", utf_16.flat_map(u16::to_le_bytes).collect()),
+    ]);
+    let Some(report) = report else { return };
+    // Dividing two integers makes the roulette's number 0.
+    let expected = [(Section::PhotonScatteringAbsorption, Some("no-roulette"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// Directions are wrong twice: what the frame does is told apart from the law of the angle.
+#[test]
+fn a_wrong_law_in_a_wrong_frame_is_told_as_both() {
+    let changes = [("std::sqrt(u1)", "u1"), ("glm::mat3(t, b, n)", "glm::mat3(t, n, b)")];
+    let Some(report) = report(&changes) else { return };
+    let expected = [
+        (Section::HemisphereSampling, Some("no-square-root")),
+        (Section::HemisphereRayTransformation, Some("permuted-frame")),
+    ];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+#[test]
+fn a_law_without_a_name_below_the_surface_is_told_as_both() {
+    let changes = [
+        ("std::sqrt(1.f - u1)", "std::sqrt(1.f - r)"),
+        ("n = state.ComputeNormal()", "n = -state.ComputeNormal()"),
+        // Offset to the right side, lest rays meet their own surface.
+        ("hit + 1e-5f * n", "hit - 1e-5f * n"),
+    ];
+    let Some(report) = report(&changes) else { return };
+    let expected = [
+        (Section::HemisphereSampling, None),
+        (Section::HemisphereRayTransformation, Some("flipped-normal")),
+    ];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+#[test]
+fn a_ray_that_is_handed_on_unchanged_is_one_fault() {
+    let Some(report) = report(&[("&scattered, light", "photonRay, light")]) else { return };
+    let expected = [(Section::HemisphereRayTransformation, Some("start-not-moved"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+    assert_eq!(report.sections[3].status, Status::NotReached);
+}
+
+/// What ends every call is told once, under the first section that meets it.
+#[test]
+fn a_crash_in_every_call_is_told_once() {
+    let hit = "const glm::vec3 hit = ";
+    let crash = "*(volatile int*)nullptr = 1;\n    const glm::vec3 hit = ";
+    let Some(report) = report(&[(hit, crash)]) else { return };
+    assert_eq!(faults(&report), [(Section::PhotonStorage, None)], "{}", sections_text(&report));
+    let statuses = report.sections[2..].iter().map(|verdict| verdict.status);
+    assert!(statuses.clone().all(|status| status == Status::NotReached));
 }

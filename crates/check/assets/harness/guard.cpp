@@ -27,10 +27,7 @@ void on_segmentation_fault(int, siginfo_t* about, void*) {
     const std::size_t size = has_limit ? static_cast<std::size_t>(limit.rlim_cur) : 8u << 20;
     const std::size_t margin = 1u << 20;
     if (at < top_of_stack && at + size + margin > top_of_stack) {
-        const char overflow = 'O';
-        if (write(3, &overflow, 1) != 1) {
-            _exit(3);
-        }
+        photon_check::stack_overflowed();
     }
     std::signal(SIGSEGV, SIG_DFL);
     std::raise(SIGSEGV);
@@ -169,6 +166,7 @@ private:
 void guard() {
     // For constructors of static objects; each step then has its own.
     photon_check::give_processor_time(3);
+    photon_check::open_pipe();
     Filter filter;
     filter.load(static_cast<unsigned>(offsetof(seccomp_data, arch)));
     filter.if_equal_skip(architecture, 1);

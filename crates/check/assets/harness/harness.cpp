@@ -329,6 +329,7 @@ void run_whole(const Plan& plan, const Step& step) {
 } // namespace
 
 int main(int argc, char** argv) {
+    open_pipe();
     watch_the_stack();
     Plan plan;
     if (argc != 5 || !read_plan(argv[1], plan)) {

@@ -4,17 +4,23 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace photon_check {
 namespace {
 
-const int pipe_to_check = 3;
 // The longest list that `grade` reads.
 const std::uint64_t most_records = 5000000;
 
-char buffer[1 << 16];
-std::size_t used = 0;
+// A key and a length stand before every piece. The submission knows neither the key nor the
+// number of the pipe.
+const std::size_t head_size = sizeof(std::uint64_t) + sizeof(std::uint32_t);
+
+int pipe_to_check = -1;
+std::uint64_t key = 0;
+char buffer[head_size + (1 << 16)];
+std::size_t used = head_size;
 Mode mode = Mode::silent;
 std::uint64_t calls_of_step = 0;
 std::uint64_t drawn_before_call = 0;
@@ -48,20 +54,58 @@ void put_number(Number number) {
     put_bytes(&number, sizeof number);
 }
 
-} // namespace
-
-void flush() {
-    std::size_t sent = 0;
-    while (sent < used) {
-        const ssize_t now = write(pipe_to_check, buffer + sent, used - sent);
+void write_all(const char* bytes, std::size_t size) {
+    while (size > 0) {
+        const ssize_t now = write(pipe_to_check, bytes, size);
         if (now > 0) {
-            sent += static_cast<std::size_t>(now);
+            bytes += now;
+            size -= static_cast<std::size_t>(now);
         } else if (errno != EINTR) {
             // Nobody listens any more.
             _exit(3);
         }
     }
-    used = 0;
+}
+
+void write_head(char* to, std::size_t size) {
+    const std::uint32_t length = static_cast<std::uint32_t>(size);
+    std::memcpy(to, &key, sizeof key);
+    std::memcpy(to + sizeof key, &length, sizeof length);
+}
+
+} // namespace
+
+void open_pipe() {
+    if (pipe_to_check >= 0) {
+        return;
+    }
+    std::uint64_t random[2] = {0, 0};
+    const int source = open("/dev/urandom", O_RDONLY);
+    if (source >= 0) {
+        if (read(source, random, sizeof random) < 0) {
+            _exit(3);
+        }
+        close(source);
+    }
+    pipe_to_check = fcntl(3, F_DUPFD, 16 + static_cast<int>(random[0] % 200));
+    close(3);
+    key = random[1];
+    write_all(reinterpret_cast<const char*>(&key), sizeof key);
+}
+
+void flush() {
+    if (used > head_size) {
+        write_head(buffer, used - head_size);
+        write_all(buffer, used);
+        used = head_size;
+    }
+}
+
+void stack_overflowed() {
+    char piece[head_size + 1];
+    write_head(piece, 1);
+    piece[head_size] = 'O';
+    write_all(piece, sizeof piece);
 }
 
 void set_mode(Mode new_mode) {

@@ -1,7 +1,8 @@
 // What the harness sees of a submission, and how it tells `photon-mapping check`.
 //
-// Messages go to file descriptor 3, a pipe. Each starts with a letter; numbers are as they lie in
-// memory. `events.rs` reads them.
+// Messages go to a pipe, in pieces. First comes a random key of 8 bytes. The key and a u32, the
+// length, stand before every piece: what a submission writes to the pipe by itself lacks the key.
+// Each message starts with a letter; numbers are as they lie in memory. `events.rs` reads them.
 //
 //   B u32            the step with this number begins
 //   N                one call of the student's code begins
@@ -59,6 +60,11 @@ bool system_calls_are_filtered();
 
 // Sends what is still in memory.
 void flush();
+
+// Moves the pipe from file descriptor 3 to a random one. Nothing happens the second time.
+void open_pipe();
+// Tells it from a signal handler.
+void stack_overflowed();
 
 // The photon of the whole run that is traced from here on.
 void begin_photon(std::uint64_t number);

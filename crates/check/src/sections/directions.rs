@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec3};
 
 use super::sampling::{LAWS, Law};
-use crate::events::{Call, Trace};
+use crate::events::{Call, StepLog, Trace};
 use crate::plan::{self, Step};
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform};
@@ -24,6 +24,8 @@ pub struct Scattered {
     pub incoming: Vec3,
     /// Whether the ray met the wall it left.
     pub met_again: bool,
+    /// Whether it is the ray that came in, unchanged.
+    pub is_old: bool,
 }
 
 /// How tangent space is turned into the world.
@@ -55,6 +57,8 @@ impl Frame {
 /// Directions over the grey floor and the grey walls, and what the floor says about the sampling.
 #[derive(Debug, Default)]
 pub struct Directions {
+    /// Whether all scattered rays are those that came in, unchanged.
+    pub are_old: bool,
     /// Over the floor with the normal (0, 0, 1).
     pub floor: Vec<Scattered>,
     /// Over every wall.
@@ -75,13 +79,14 @@ impl Directions {
     /// What was seen.
     pub fn of(observed: &Observed) -> Self {
         let scattered = |step: Step| {
-            let calls = observed.step(step).map_or(&[][..], |log| log.calls.as_slice());
+            let calls = observed.step(step).map_or(&[][..], StepLog::ended_calls);
             calls.iter().filter_map(of_call).collect::<Vec<_>>()
         };
         let floor = scattered(Step::Floor);
         let walls = plan::wall_normals();
         let walls = walls.into_iter().map(|n| (n, scattered(Step::Wall(n)))).collect();
-        let mut directions = Self { floor, walls, ..Self::default() };
+        let are_old = !floor.is_empty() && floor.iter().all(|ray| ray.is_old);
+        let mut directions = Self { are_old, floor, walls, ..Self::default() };
         directions.judge_floor();
         directions
     }
@@ -167,6 +172,7 @@ fn of_call(call: &Call) -> Option<Scattered> {
         direction: second.direction,
         incoming: first.direction.normalize_or_zero(),
         met_again: second.met,
+        is_old: second.from == first.from && second.direction == first.direction,
     })
 }
 

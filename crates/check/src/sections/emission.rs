@@ -89,7 +89,7 @@ const LAWS: [Law; 5] = [
     },
 ];
 
-pub(super) fn judge(observed: &Observed) -> Verdict {
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonEmission);
     let steps = [Step::Emit, Step::EmitCorner, Step::EmitOnSphere, Step::EmitZero];
     let function = "GenerateRandomPhotonRay";
@@ -100,7 +100,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         if steps.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("GenerateRandomPhotonRay was not called");
         }
-        return verdict.finish(observed, function, &steps);
+        return verdict.finish(observed, function, &steps, told);
     }
     judge_start(&rays, &mut verdict);
     let directions: Vec<_> = rays.iter().map(|ray| ray[1]).collect();
@@ -110,7 +110,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
     if verdict.faults.is_empty() {
         judge_scripted(observed, &mut verdict);
     }
-    verdict.finish(observed, function, &steps)
+    verdict.finish(observed, function, &steps, told)
 }
 
 fn judge_start(rays: &[[Vec3; 2]], verdict: &mut Verdict) {

@@ -85,29 +85,39 @@ impl Verdict {
         self.remarks.push(why.into());
     }
 
-    /// Sets the status by what was found; says how steps died, once for each way.
-    fn finish(mut self, observed: &Observed, function: &str, steps: &[Step]) -> Self {
-        let mut told: Vec<String> = Vec::new();
+    /// Sets the status by what was found; says how steps died, once for each way. What an earlier
+    /// section `told` is not this one's fault, but keeps it from being seen.
+    fn finish(
+        mut self,
+        observed: &Observed,
+        function: &str,
+        steps: &[Step],
+        told: &mut Vec<String>,
+    ) -> Self {
+        let mut own: Vec<String> = Vec::new();
+        let mut is_seen = true;
         for step in steps {
             let Some(death) = observed.death(*step) else { continue };
-            if *death == Death::LeftOut && !told.is_empty() {
-                continue;
-            }
             // A path without end runs out of stack: that is told already.
             let has_no_limit = self.faults.iter().any(|fault| fault.name == Some("no-limit"));
             if has_no_limit && matches!(step, Step::Remaining(_)) {
                 continue;
             }
-            let sentence = death.sentence();
-            if !told.contains(&sentence) {
-                let found = format!("{function} {sentence} ({})", where_of(*step));
+            let sentence = format!("{function} {}", death.sentence());
+            if *death == Death::LeftOut || told.contains(&sentence) {
+                is_seen = false;
+            } else if !own.contains(&sentence) {
+                let found = format!("{sentence} ({})", where_of(*step));
                 let advice = "Mend this first: what comes after it was not seen.";
                 self.faults.push(Fault { name: None, found, advice });
-                told.push(sentence);
+                own.push(sentence);
             }
         }
+        told.append(&mut own);
         if !self.faults.is_empty() {
             self.status = Status::Wrong;
+        } else if self.status == Status::Right && !is_seen {
+            self.not_reached(format!("{function} did not end well in earlier calls"));
         } else if self.status == Status::Right && !self.readings.is_empty() {
             self.status = Status::RightUnderAnotherReading;
         }
@@ -144,11 +154,13 @@ fn where_of(step: Step) -> String {
 
 /// Judges all five sections.
 pub fn judge(observed: &Observed) -> Vec<Verdict> {
-    let emission = emission::judge(observed);
-    let storage = storage::judge(observed);
-    let scattering = scattering::judge(observed);
+    let told = &mut Vec::new();
     let directions = directions::Directions::of(observed);
-    let sampling = sampling::judge(observed, &directions);
-    let transformation = transformation::judge(observed, &directions);
-    vec![emission, storage, scattering, sampling, transformation]
+    vec![
+        emission::judge(observed, told),
+        storage::judge(observed, told),
+        scattering::judge(observed, told),
+        sampling::judge(observed, &directions, told),
+        transformation::judge(observed, &directions, told),
+    ]
 }

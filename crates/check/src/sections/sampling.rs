@@ -73,7 +73,11 @@ pub static LAWS: [Law; 7] = [
 
 const NEW_NUMBERS: &str = "Draw two random numbers in [0, 1), u1 and u2, for every direction.";
 
-pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
+pub(super) fn judge(
+    observed: &Observed,
+    directions: &Directions,
+    told: &mut Vec<String>,
+) -> Verdict {
     let mut verdict = Verdict::new(Section::HemisphereSampling);
     let total = directions.floor.len();
     if total < FEWEST {
@@ -83,7 +87,11 @@ pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
                  judged"
             ));
         }
-        return verdict.finish(observed, "TracePhoton", &[Step::Floor]);
+        return verdict.finish(observed, "TracePhoton", &[Step::Floor], told);
+    }
+    if directions.are_old {
+        verdict.not_reached("the ray with the new direction is never traced");
+        return verdict;
     }
     let not_finite = directions.floor.iter().filter(|ray| !ray.direction.is_finite()).count();
     if not_finite > 0 {
@@ -99,7 +107,7 @@ pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
         }
         judge_pairs(directions, &mut verdict);
     }
-    verdict.finish(observed, "TracePhoton", &[Step::Floor])
+    verdict.finish(observed, "TracePhoton", &[Step::Floor], told)
 }
 
 /// The angles to the normal, and around it, of directions that do not follow the cosine.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Verdict;
-use crate::events::Call;
+use crate::events::{Call, StepLog};
 use crate::plan::{COLOURS, Step};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
@@ -123,10 +123,9 @@ const RULES: [Rule; 14] = [
     },
 ];
 
-pub(super) fn judge(observed: &Observed) -> Verdict {
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonScatteringAbsorption);
-    let calls =
-        |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
+    let calls = |step: Step| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
     // What happens at the first hit, by the wall's colour.
     let walls: Vec<_> = [
         (Step::Black, Vec3::ZERO),
@@ -158,7 +157,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         }
         judge_threshold(observed, &mut verdict);
     }
-    verdict.finish(observed, "TracePhoton", &STEPS)
+    verdict.finish(observed, "TracePhoton", &STEPS, told)
 }
 
 /// Of the calls with a hit number `hit`, from 1: how many there are, and how many scatter there.
@@ -210,7 +209,8 @@ fn constant(walls: &[(Vec3, [usize; 2])]) -> bool {
     let total: usize = walls.iter().map(|(_, [total, _])| total).sum();
     let count: usize = walls.iter().map(|(_, [_, count])| count).sum();
     let chance = count as f64 / total as f64;
-    walls.iter().all(|(_, [total, count])| may_happen(*count, *total, chance))
+    // Where hardly any scatters, all chances look alike.
+    chance > 0.05 && walls.iter().all(|(_, [total, count])| may_happen(*count, *total, chance))
 }
 
 /// The roulette of later hits, in a closed cube with P_r = 0.5.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Verdict;
-use crate::events::{Call, Trace};
+use crate::events::{Call, StepLog, Trace};
 use crate::plan::{INTENSITY, Step};
 use crate::run::Observed;
 use variants::section::Section;
@@ -28,10 +28,11 @@ const IN_EVERY_CALL: &str =
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
                           grow with every call of TracePhoton.";
 
-pub(super) fn judge(observed: &Observed) -> Verdict {
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonStorage);
     let calls =
         |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
+    let ended = |step: Step| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
     let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
     let asks = STEPS.iter().any(|step| calls(*step).iter().any(|call| call.rays() > 0));
     if !is_seen {
@@ -44,13 +45,13 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
             "Call storedScene->Trace(photonRay, &state) below the line that sets currentIOR.";
         verdict.fault(None, found, advice);
     } else {
-        judge_first(calls(Step::StoreFirst), &mut verdict);
-        judge_later(&calls, &mut verdict);
+        judge_first(ended(Step::StoreFirst), &mut verdict);
+        judge_later(&ended, &mut verdict);
         if observed.death(Step::GrowPath).is_none() {
-            judge_growth(calls(Step::GrowPath), &mut verdict);
+            judge_growth(ended(Step::GrowPath), &mut verdict);
         }
-        judge_limit(&calls, &mut verdict);
-        judge_values(&calls, &mut verdict);
+        judge_limit(&calls, ended(Step::Remaining(1000)), &mut verdict);
+        judge_values(&ended, &mut verdict);
         let missed = calls(Step::StoreMiss).iter().filter(|call| !call.stored.is_empty()).count();
         if missed > 0 {
             let found = "a photon is stored though its ray meets nothing".to_owned();
@@ -72,7 +73,7 @@ pub(super) fn judge(observed: &Observed) -> Verdict {
         .into_iter()
         .filter(|step| !(stores_before_dying && is_on_black_wall(*step)))
         .collect();
-    verdict.finish(observed, "TracePhoton", &own)
+    verdict.finish(observed, "TracePhoton", &own, told)
 }
 
 fn is_on_black_wall(step: Step) -> bool {
@@ -215,7 +216,7 @@ fn lacks_second(call: &Call) -> bool {
     stored_and_due(call, 1).is_some_and(|(stored, due)| stored < due)
 }
 
-fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
+fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], far: &[Call], verdict: &mut Verdict) {
     let below: usize = calls(Step::Remaining(-1)).iter().map(|call| call.stored.len()).sum();
     if below > 0 {
         let found = format!("{below} photons are stored with remainingBounces = -1");
@@ -247,11 +248,9 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
         verdict.fault(Some("no-limit"), found, advice);
         return;
     }
-    let counts: Vec<_> =
-        calls(Step::Remaining(1000)).iter().map(|call| call.hits().count()).collect();
-    let missed = calls(Step::Remaining(1000))
-        .iter()
-        .any(|call| call.traces.iter().any(|trace| trace.has_state && !trace.met));
+    let counts: Vec<_> = far.iter().map(|call| call.hits().count()).collect();
+    let missed =
+        far.iter().any(|call| call.traces.iter().any(|trace| trace.has_state && !trace.met));
     let Some(count) = counts.first().copied() else { return };
     let all_same = counts.iter().all(|other| *other == count);
     // One hit alone is a path that never scatters, which is another section's.

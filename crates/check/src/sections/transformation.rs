@@ -22,7 +22,11 @@ const COLUMNS: &str =
 const WALL: &str = "The wall's normal is (-1, 0, 0), so its dot product with (1, 0, 0) is -1: \
                     compare the absolute value with your threshold.";
 
-pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
+pub(super) fn judge(
+    observed: &Observed,
+    directions: &Directions,
+    told: &mut Vec<String>,
+) -> Verdict {
     let mut verdict = Verdict::new(Section::HemisphereRayTransformation);
     let steps: Vec<_> = wall_normals().into_iter().map(Step::Wall).collect();
     let seen = directions.walls.iter().filter(|(_, rays)| rays.len() >= FEWEST).count();
@@ -30,11 +34,18 @@ pub(super) fn judge(observed: &Observed, directions: &Directions) -> Verdict {
         if steps.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("no photon scatters from a wall with P_r = 0.5");
         }
-        return verdict.finish(observed, "TracePhoton", &steps);
+        return verdict.finish(observed, "TracePhoton", &steps, told);
     }
-    judge_frames(directions, &mut verdict);
-    judge_start(directions, &mut verdict);
-    verdict.finish(observed, "TracePhoton", &steps)
+    if directions.are_old {
+        let found = "TracePhoton is called with the ray that came in, unchanged".to_owned();
+        let advice = "Hand the new ray to TracePhoton, or change photonRay before: its position \
+                      and its direction.";
+        verdict.fault(Some("start-not-moved"), found, advice);
+    } else {
+        judge_frames(directions, &mut verdict);
+        judge_start(directions, &mut verdict);
+    }
+    verdict.finish(observed, "TracePhoton", &steps, told)
 }
 
 fn judge_frames(directions: &Directions, verdict: &mut Verdict) {

@@ -58,6 +58,14 @@ void PointLight::GenerateRandomPhotonRay(Ray& ray) const
     }
     if (deed == "recursion") recurse(0);
     if (deed == "throw") throw std::runtime_error("on purpose");
+    if (deed == "forge") {
+        const char told[] = "QZ";
+        if (write(3, told, 2) == 2) std::abort();
+    }
+    if (deed == "forge-all") {
+        const std::string told(64, 'Z');
+        for (int i = 3; i < 256; ++i) if (write(i, told.data(), told.size()) > 0) continue;
+    }
     if (deed == "print") std::puts("hello");
 
     float x, y, z, sum;

@@ -2,6 +2,7 @@
 // told to the harness's recorder; that is how `photon-mapping check` learns what is stored.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -56,7 +57,14 @@ void put_to_light(const P&, float*, long) {}
 
 namespace KDTree {
 
-template <std::size_t const K, class Value, class Accessor>
+// For values that have the axes behind [].
+template <class Value>
+struct _Bracket_accessor {
+    typedef typename Value::value_type result_type;
+    result_type operator()(const Value& value, std::size_t axis) const { return value[axis]; }
+};
+
+template <std::size_t const K, class Value, class Accessor = _Bracket_accessor<Value> >
 class KDTree {
 public:
     typedef Value value_type;
@@ -89,12 +97,14 @@ public:
 
     void optimise() {}
     void optimize() {}
-    void efficient_replace_and_optimise(std::vector<Value>& with) {
-        clear();
-        insert(with.begin(), with.end());
-    }
+    // The values were told when they were first inserted.
+    void efficient_replace_and_optimise(std::vector<Value>& with) { photons.swap(with); }
+    void erase(const Value& value) { erase_at(find(value)); }
+    void erase(const const_iterator& it) { erase_at(it); }
+    void erase_exact(const Value& value) { erase_at(find_exact(value)); }
     void clear() { photons.clear(); }
     size_type size() const { return photons.size(); }
+    size_type max_size() const { return photons.max_size(); }
     bool empty() const { return photons.empty(); }
     const_iterator begin() const { return photons.begin(); }
     const_iterator end() const { return photons.end(); }
@@ -113,6 +123,24 @@ public:
         }
         return output;
     }
+    template <class Visitor>
+    Visitor visit_within_range(const Value& around, distance_type range, Visitor visitor) const {
+        std::vector<Value> found;
+        find_within_range(around, range, std::back_inserter(found));
+        return std::for_each(found.begin(), found.end(), visitor);
+    }
+    // At the place of `value`.
+    const_iterator find(const Value& value) const {
+        return std::find_if(begin(), end(), [&](const Value& other) {
+            for (std::size_t axis = 0; axis < K; ++axis) {
+                if (get(other, axis) != get(value, axis)) {
+                    return false;
+                }
+            }
+            return true;
+        });
+    }
+    const_iterator find_exact(const Value& value) const { return find(value); }
     size_type count_within_range(const Value& around, distance_type range) const {
         std::vector<Value> found;
         find_within_range(around, range, std::back_inserter(found));
@@ -123,6 +151,11 @@ public:
     }
     std::pair<const_iterator, distance_type> find_nearest(const Value& around,
                                                           distance_type farthest) const {
+        return find_nearest_if(around, farthest, [](const Value&) { return true; });
+    }
+    template <class Predicate>
+    std::pair<const_iterator, distance_type>
+    find_nearest_if(const Value& around, distance_type farthest, Predicate counts) const {
         std::pair<const_iterator, distance_type> best(end(), farthest);
         for (const_iterator it = begin(); it != end(); ++it) {
             distance_type squared = 0;
@@ -131,7 +164,7 @@ public:
                 squared += along * along;
             }
             const distance_type distance = std::sqrt(squared);
-            if (distance <= best.second) {
+            if (distance <= best.second && counts(*it)) {
                 best = std::make_pair(it, distance);
             }
         }
@@ -139,6 +172,12 @@ public:
     }
 
 private:
+    void erase_at(const_iterator it) {
+        if (it != end()) {
+            photons.erase(photons.begin() + (it - begin()));
+        }
+    }
+
     Accessor get;
     std::vector<Value> photons;
 };
