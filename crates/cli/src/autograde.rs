@@ -5,7 +5,6 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -14,7 +13,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::error::CliError;
-use super::output::OutputFile;
+use super::output::write;
 use super::{grade, values};
 
 /// Folders deeper than this are not searched, nor more files than this.
@@ -53,11 +52,8 @@ pub struct AutogradeArgs {
 pub fn run(arguments: &AutogradeArgs) -> Result<u8, CliError> {
     let results = results(arguments);
     let path = arguments.base.join("results/results.json");
-    let mut file = OutputFile::create(&path)?;
     let text = serde_json::to_string_pretty(&results).expect("results have only plain values");
-    let written = writeln!(file.file(), "{text}");
-    written.map_err(|error| CliError::unwritable(&path, error))?;
-    file.persist()?;
+    write(&path, text + "\n")?;
     Ok(0)
 }
 

@@ -18,6 +18,7 @@ use rayon::prelude::*;
 
 use super::error::{CliError, print};
 use super::grade::{INDEX, file_names, json, made_by, refuse_others};
+use super::gradebook::without_formula;
 use super::output::{OutputFile, write};
 use super::{progress, values};
 
@@ -256,7 +257,8 @@ fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
     let statuses = (0..5).map(|at| report.sections.get(at).map_or("", |v| v.status.in_words()));
     cells.extend(statuses.map(str::to_owned));
     cells.push(report.whole.sentence(&report.sections));
-    let quoted = cells.iter().map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
+    let cells = cells.iter().map(|cell| without_formula(cell));
+    let quoted = cells.map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
     quoted.collect::<Vec<_>>().join(",")
 }
 

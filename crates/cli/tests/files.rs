@@ -3,6 +3,7 @@
 
 mod support;
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use support::{
-    csv, fails, folder, grades, json, mkfifo, program, remarks, run, run_line, stderr, write,
+    csv, fails, folder, grades, json, mkfifo, program, remarks, run_line, stderr, write,
 };
 
 /// A list of few photons in `folder`.
@@ -403,14 +404,8 @@ fn pictures_cost_no_more_than_their_pixels() {
     let few = &grades(&[], &[&at("few")])[0];
     assert_eq!((&grade["verdict"], &grade["findings"]), (&few["verdict"], &few["findings"]));
     let start = Instant::now();
-    run_line(
-        "compare {} {}",
-        &["few", "many"]
-            .map(|name| at(name).join("assignment8.png"))
-            .each_ref()
-            .map(PathBuf::as_path),
-    )
-    .code(0);
+    let pictures = ["few", "many"].map(|name| at(name).join("assignment8.png"));
+    run_line("compare {} {}", &[&pictures[0], &pictures[1]]).code(0);
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
     let huge = [&png[..16], &[0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff], &png[24..]].concat();
     let huge = write(at("huge.png"), huge);
@@ -420,8 +415,23 @@ fn pictures_cost_no_more_than_their_pixels() {
     assert!(remarks(&grades(&[], &[&at("cut")])[0]).contains("broken PNG"));
 }
 
+/// All files below `folder`, by their names in it, with their contents.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        let name = PathBuf::from(path.file_name().unwrap());
+        if path.is_dir() {
+            all.extend(contents(&path).into_iter().map(|(inner, it)| (name.join(inner), it)));
+        } else {
+            all.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    all
+}
+
 #[test]
-fn outputs_that_cannot_be_written_leave_what_was_there() {
+fn each_write_that_fails_leaves_whole_files() {
     let folder = folder();
     let at = |name: &str| folder.path().join(name);
     few(folder.path());
@@ -429,31 +439,69 @@ fn outputs_that_cannot_be_written_leave_what_was_there() {
     write(at("b.csv"), csv(2, 20_000));
     image::RgbImage::new(8, 6).save(at("black.png")).unwrap();
     let program = env!("CARGO_BIN_EXE_photon-mapping");
-    for (line, outputs) in [
-        ("merge few/photons.ply --out out/merged.csv", &["merged.csv"][..]),
-        ("grade a.csv --out out/a.txt", &["a.txt"]),
-        ("grade a.csv b.csv --format gradescope --out out", &["a.csv.json", "b.csv.json"]),
-        ("compare few/assignment8.png black.png --out out/d.png", &["d.png"]),
-        ("render --photons 2000 --size 8x6 --out out", &["assignment8.png", "photons.ply"]),
-        ("explore --photons 200 --out out", &["explore.html"]),
+    for (line, replaces) in [
+        ("merge few/photons.ply --out OUT/merged.csv", true),
+        ("grade a.csv --out OUT/a.txt", true),
+        ("grade a.csv b.csv --format gradescope --out OUT", true),
+        ("grade a.csv b.csv --format html --out OUT", true),
+        ("compare few/assignment8.png black.png --out OUT/d.png", true),
+        ("render --photons 2000 --size 8x6 --out OUT", true),
+        ("render --photons 2000 --size 8x6 --format csv --out OUT", true),
+        ("explore --photons 200 --out OUT", true),
+        ("kit student --out OUT", false),
+        ("kit gradescope --out OUT", false),
     ] {
-        // In blocks of 512 bytes: nothing fits, or only the start.
-        for most in [0, 1] {
-            outputs.iter().for_each(|name| drop(write(at("out").join(name), "old")));
+        let run = |most: &str, out: &str| {
+            let line = line.replace("OUT", out);
             let line = format!("trap '' XFSZ; ulimit -f {most}; {program} {line}");
-            let output =
-                Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
-            let error = stderr(&output);
-            let fits = |name: &&str| fs::metadata(at("out").join(name)).unwrap().len() <= 512;
-            assert!(outputs.iter().all(fits), "{line}");
-            let is_old = |name: &&str| fs::read(at("out").join(name)).unwrap() == b"old";
-            if outputs.iter().any(is_old) {
-                assert_eq!(output.status.code(), Some(2), "{line}: {error}");
-                assert!(error.contains("cannot be written"), "{line}: {error}");
+            Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap()
+        };
+        run("unlimited", "good");
+        let good = contents(&at("good"));
+        assert!(!good.is_empty(), "{line}");
+        // In blocks of 512 bytes: nothing fits, or only the start of a file, or of the later ones.
+        for most in (0..20).map(|power| (1 << power) / 2) {
+            if replaces {
+                good.keys().for_each(|name| drop(write(at("out").join(name), "old")));
             }
-            let left = fs::read_dir(at("out")).unwrap().count();
-            assert_eq!(left, outputs.len(), "{line}: nothing unfinished is left");
+            let output = run(&most.to_string(), "out");
+            let (error, found) = (stderr(&output), contents(&at("out")));
+            for (name, it) in &found {
+                let is_whole = good.get(name) == Some(it) || (replaces && it == b"old");
+                assert!(is_whole, "{line}: {most} blocks: {}", name.display());
+            }
+            let _ = fs::remove_dir_all(at("out"));
+            if found == good {
+                break;
+            }
+            assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+            assert!(error.contains("cannot be written"), "{line}: {error}");
         }
-        fs::remove_dir_all(at("out")).unwrap();
+        fs::remove_dir_all(at("good")).unwrap();
+    }
+}
+
+#[test]
+fn no_verb_takes_a_full_standard_output_for_a_success() {
+    let folder = folder();
+    let list = few(folder.path());
+    let list = list.to_str().unwrap();
+    let runs: [&[&str]; 7] = [
+        &["grade", list],
+        &["compare", list, list],
+        &["render", "--photons", "99", "--size", "8x6"],
+        &["explain", "1"],
+        &["merge", list, "--out", "merged.ply"],
+        &["completions", "bash"],
+        &["man"],
+    ];
+    for arguments in runs {
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let mut command = program(folder.path());
+        let output = command.args(arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
+        let output = output.wait_with_output().unwrap();
+        let error = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(error.contains("cannot be written"), "{arguments:?}: {error}");
     }
 }

@@ -7,11 +7,11 @@ use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde_json::Value;
 use support::{
-    csv, fails, folder, grades, mkfifo, program, reference_csv, remarks, run_line, stderr, write,
+    csv, folder, grades, mkfifo, program, reference_csv, remarks, run_line, stderr, write,
 };
 
 /// A class in which half of all submissions attack.
@@ -24,18 +24,15 @@ fn hostile_class(class: &Path, outside: &Path) -> Vec<String> {
     let list = |name: &str, contents: Vec<u8>| drop(write(at(name).join("photons.csv"), contents));
     list(&long, good.clone().into());
     // As many rows as are read, packed to next to nothing, and as many that nothing packs.
-    let rows = |row: &dyn Fn(u32) -> [u8; 4]| -> Vec<u8> {
-        let cell = |number: u32| [row(number), [0, 0, (number % 4) as u8, 0]].concat();
-        (0..5_000_000).flat_map(cell).collect()
-    };
     let header = ply("element vertex 5000000\nproperty float x\nproperty float y\n\
                       property uchar z\nend_header\n");
-    let random = |number: u32| (number.wrapping_mul(2_654_435_761) as f32 / 4e9).to_le_bytes();
-    for (name, row) in [("same-rows", &(|_| [1; 4]) as &dyn Fn(u32) -> [u8; 4]), ("rows", &random)]
-    {
-        let rows: Vec<u8> = rows(row).chunks(8).flat_map(|row| [row, &[0]].concat()).collect();
-        list(name, [header.as_bytes(), &rows].concat());
-    }
+    let rows = |x: fn(u32) -> f32| -> Vec<u8> {
+        let row = |number: u32| [x(number), x(number + 1)].map(f32::to_le_bytes);
+        (0..5_000_000).flat_map(|number| [row(number).concat(), vec![0]].concat()).collect()
+    };
+    let random = |number: u32| number.wrapping_mul(2_654_435_761) as f32 / 4e9;
+    list("same-rows", [header.as_bytes(), &rows(|_| 0.123_456)].concat());
+    list("rows", [header.as_bytes(), &rows(random)].concat());
     list("comments", "#,x,y,z,x,y,z\n".repeat(2_000_000).into());
     list("vertices", ply(&format!("element vertex {}\n{xyz}1234", u64::MAX)).into());
     list("nothing", ply(&format!("element none {}\nelement vertex 0\n{xyz}", u64::MAX)).into());
@@ -104,7 +101,7 @@ fn a_class_of_attackers_ends_with_all_grades() {
     let alone = &grades(&[], &[&at("class").join(&good[7])])[0];
     let before = tree(folder.path());
     let program = env!("CARGO_BIN_EXE_photon-mapping");
-    let limits = "ulimit -v 950000; ulimit -n 40; ulimit -t 120";
+    let limits = "ulimit -v 950000; ulimit -n 40; ulimit -t 90";
     let grade = format!("{program} grade --class --emitted 60000");
     let nobody = "setpriv --reuid=65534 --regid=65534 --clear-groups";
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
@@ -112,15 +109,12 @@ fn a_class_of_attackers_ends_with_all_grades() {
     let mut prefixes = vec![""];
     prefixes.extend(is_root.is_ok_and(|status| status.success()).then_some(nobody));
     for prefix in prefixes {
-        let start = Instant::now();
         let line = format!("{limits}; {prefix} {grade} --format json class");
         let output =
             Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
-        let seconds = start.elapsed();
         let grades: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
             panic!("{error}: {}", stderr(&output));
         });
-        assert!(seconds < Duration::from_secs(60), "{seconds:?}");
         assert_eq!((output.status.code(), grades.len()), (Some(0), 42), "{}", stderr(&output));
         let all = String::from_utf8_lossy(&output.stdout);
         assert!(!all.contains("password"), "what a link leads to is not told");

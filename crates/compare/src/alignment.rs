@@ -8,7 +8,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::differences::same_to_light;
-use super::partners::partners;
+use super::partners::{ALONE, partners};
 use super::position_index::{PositionIndex, is_near};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
@@ -39,8 +39,11 @@ pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) ->
     let lists = Lists { reference, submission, tolerance };
     if !(reference.columns.photon && submission.columns.photon) {
         let all = |list: &PhotonList| (0..list.records.len()).collect::<Vec<_>>();
-        let by_order = lists.by_order(&all(reference), &all(submission));
-        let mut pairings = lists.by_place(&by_order).unwrap_or(by_order);
+        let reordered = lists.are_reordered().then(|| lists.by_place(0)).flatten();
+        let mut pairings = reordered.unwrap_or_else(|| {
+            let by_order = lists.by_order(&all(reference), &all(submission));
+            lists.by_place(lists.near_pairs(&by_order)).unwrap_or(by_order)
+        });
         lists.uncross(&mut pairings);
         return pairings;
     }
@@ -145,29 +148,54 @@ impl Lists<'_> {
         pairings
     }
 
+    /// Whether long lists have hardly any order in common, which takes long to find out for all.
+    fn are_reordered(&self) -> bool {
+        const LONG: usize = 100_000;
+        const PROBES: usize = 1000;
+        let [reference, submission] = [self.reference, self.submission].map(|list| &list.records);
+        if reference.len().min(submission.len()) < LONG {
+            return false;
+        }
+        let index = PositionIndex::new(reference, self.tolerance);
+        let probes = submission.iter().enumerate().step_by(submission.len() / PROBES);
+        let places = probes.filter_map(|(j, record)| {
+            let near = index.near(record.position, j);
+            near.into_iter().min_by_key(|i| i.abs_diff(j))
+        });
+        // Of the longest ascending sequences of each length, the last place.
+        let (mut ends, mut found) = (Vec::new(), 0);
+        for place in places {
+            found += 1;
+            match ends.partition_point(|end| *end < place) {
+                longest if longest == ends.len() => ends.push(place),
+                length => ends[length] = place,
+            }
+        }
+        2 * ends.len() < found
+    }
+
     /// Pairs records whatever their order is, each with one that lies near it; `None` when that is
-    /// no clear gain over `by_order`.
-    fn by_place(&self, by_order: &[Pairing]) -> Option<Vec<Pairing>> {
+    /// no clear gain over the pairs that are near each other `in_order`.
+    fn by_place(&self, in_order: usize) -> Option<Vec<Pairing>> {
         let (reference, submission) = (&self.reference.records, &self.submission.records);
-        let in_order = self.near_pairs(by_order);
         let most = reference.len().min(submission.len());
         if in_order == most {
             return None;
         }
-        let [of_reference, of_submission] = [reference, submission]
-            .map(|records| records.iter().map(|record| record.position).collect::<Vec<_>>());
-        let partners = partners(&of_reference, &of_submission, self.tolerance);
-        let found = partners.iter().flatten().count();
+        let partners = partners(&PositionIndex::new(reference, self.tolerance), submission);
+        let found = partners.iter().filter(|partner| **partner != ALONE).count();
         let is_all = found == reference.len() && found == submission.len();
         if !is_all && (2 * found < most || 4 * in_order > 3 * found) {
             return None;
         }
         let mut is_extra = vec![true; submission.len()];
-        partners.iter().flatten().for_each(|j| is_extra[*j as usize] = false);
+        for partner in partners.iter().filter(|partner| **partner != ALONE) {
+            is_extra[*partner as usize] = false;
+        }
         let extra = is_extra.into_iter().enumerate().filter(|(_, is_extra)| *is_extra);
         let of_reference = partners.into_iter().enumerate().map(|(i, partner)| match partner {
-            Some(j) => Pairing::Both(i, j as usize),
-            None => Pairing::Missing(i),
+            ALONE => Pairing::Missing(i),
+            j => Pairing::Both(i, j as usize),
         });
         Some(of_reference.chain(extra.map(|(j, _)| Pairing::Extra(j))).collect())
     }

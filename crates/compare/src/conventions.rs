@@ -57,8 +57,7 @@ fn other_axes(
     submission: &PhotonList,
     tolerance: f32,
 ) -> Option<(Mat3, String)> {
-    let positions: Vec<_> = reference.records.iter().map(|record| record.position).collect();
-    let index = PositionIndex::new(&positions, tolerance);
+    let index = PositionIndex::new(&reference.records, tolerance);
     let all: Vec<_> = probes(&submission.records).map(|record| record.position).collect();
     let matched = |axes: &Mat3| {
         let is_found = |position: &&Vec3| {
@@ -128,8 +127,7 @@ fn photon_shift(reference: &PhotonList, submission: &PhotonList, tolerance: f32)
         return None;
     }
     // The shift of the first record that is found anywhere says which shifts are worth a trial.
-    let positions: Vec<_> = reference.records.iter().map(|record| record.position).collect();
-    let index = PositionIndex::new(&positions, tolerance);
+    let index = PositionIndex::new(&reference.records, tolerance);
     let shifts = all.iter().filter(|record| record.position.is_finite()).filter_map(|record| {
         let place = *index.near(record.position, 0).first()?;
         let shift = i64::from(reference.records[place].photon) - i64::from(record.photon);

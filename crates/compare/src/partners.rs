@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use glam::Vec3;
 
-use super::position_index::PositionIndex;
+use super::position_index::{Located, PositionIndex};
 
 /// Of the free positions of a cell, so many are looked at.
 const MOST_FREE: usize = 64;
@@ -13,17 +13,18 @@ const MOST_FREE: usize = 64;
 const MOST_TRIED: usize = 256;
 const MOST_TRIED_IN_ALL: usize = 4;
 
-/// For each position of `reference` the place of its partner in `submission`, which is within
-/// `tolerance`: as many as there can be, except among crowds.
-pub fn partners(reference: &[Vec3], submission: &[Vec3], tolerance: f32) -> Vec<Option<u32>> {
-    let index = PositionIndex::new(reference, tolerance);
+/// What stands for no partner.
+pub const ALONE: u32 = u32::MAX;
+
+/// For each position of `index` the place of its partner in `submission`, which is within the
+/// tolerance of the index, or [`ALONE`]: as many pairs as there can be, except among crowds.
+pub fn partners<T: Located>(index: &PositionIndex<T>, submission: &[T]) -> Vec<u32> {
+    let count = index.positions.len();
     let mut pairs = Pairs {
-        reference,
+        index,
         submission,
-        tolerance,
-        partners: vec![None; reference.len()],
-        next_free: (0..=reference.len() as u32).collect(),
-        index: &index,
+        partners: vec![ALONE; count],
+        next_free: (0..=count as u32).collect(),
         left_to_try: MOST_TRIED_IN_ALL * submission.len(),
     };
     let alone: Vec<u32> =
@@ -34,22 +35,20 @@ pub fn partners(reference: &[Vec3], submission: &[Vec3], tolerance: f32) -> Vec<
     pairs.partners
 }
 
-struct Pairs<'a> {
-    reference: &'a [Vec3],
-    submission: &'a [Vec3],
-    tolerance: f32,
-    partners: Vec<Option<u32>>,
+struct Pairs<'a, T> {
+    index: &'a PositionIndex<'a, T>,
+    submission: &'a [T],
+    partners: Vec<u32>,
     /// For each entry of the index, one at or behind it that may be free: those between are not.
     next_free: Vec<u32>,
-    index: &'a PositionIndex<'a>,
     left_to_try: usize,
 }
 
-impl Pairs<'_> {
+impl<T: Located> Pairs<'_, T> {
     /// Pairs `j` with the nearest free position, if there is one. Copies always find theirs, since
     /// no other is nearer.
     fn take_nearest(&mut self, j: u32) -> bool {
-        let position = self.submission[j as usize];
+        let position = self.submission[j as usize].position();
         let mut nearest: Option<(f32, usize)> = None;
         for cell in self.index.cells_near(position) {
             let mut at = self.free_from(cell.start);
@@ -57,8 +56,10 @@ impl Pairs<'_> {
                 if at >= cell.end {
                     break;
                 }
-                let distance = distance(self.reference[self.index.place(at)], position);
-                if distance <= self.tolerance && nearest.is_none_or(|(least, _)| distance < least) {
+                let distance = distance(self.index.position(at), position);
+                if distance <= self.index.tolerance
+                    && nearest.is_none_or(|(least, _)| distance < least)
+                {
                     nearest = Some((distance, at));
                 }
                 if distance == 0.0 {
@@ -69,7 +70,7 @@ impl Pairs<'_> {
         }
         let Some((_, at)) = nearest else { return false };
         self.next_free[at] = at as u32 + 1;
-        self.partners[self.index.place(at)] = Some(j);
+        self.partners[self.index.place(at)] = j;
         true
     }
 
@@ -93,14 +94,16 @@ impl Pairs<'_> {
         if self.take_nearest(j) {
             return true;
         }
-        for i in self.index.near(self.submission[j as usize], j as usize) {
-            let Some(partner) = self.partners[i].filter(|_| tried.insert(i)) else { continue };
+        for i in self.index.near(self.submission[j as usize].position(), j as usize) {
+            if !tried.insert(i) {
+                continue;
+            }
             if tried.len() > MOST_TRIED || self.left_to_try == 0 {
                 return false;
             }
             self.left_to_try -= 1;
-            if self.make_room(partner, tried) {
-                self.partners[i] = Some(j);
+            if self.make_room(self.partners[i], tried) {
+                self.partners[i] = j;
                 return true;
             }
         }
@@ -120,29 +123,32 @@ mod tests {
     #[test]
     fn copies_in_any_order_and_neighbours_in_a_row_find_each_other() {
         let tolerance = 1e-3;
+        let are_all_paired = |one: &[Vec3], other: &[Vec3]| {
+            !partners(&PositionIndex::new(one, tolerance), other).contains(&ALONE)
+        };
         let crowd = |count: usize| -> Vec<Vec3> {
             let at = |k: usize| (k * 7919 % count) as f32;
             (0..count).map(|k| Vec3::new(at(k) * 1e-4, (k % 10) as f32 * 4e-4, 0.0)).collect()
         };
         let copies = crowd(20_000);
         let reversed: Vec<_> = copies.iter().rev().copied().collect();
-        assert!(partners(&copies, &reversed, tolerance).iter().all(Option::is_some));
+        assert!(are_all_paired(&copies, &reversed));
         let same = vec![Vec3::ONE; 20_000];
-        assert!(partners(&same, &same, tolerance).iter().all(Option::is_some));
+        assert!(are_all_paired(&same, &same));
         // All take the next one, which is nearer than their own, and the last must move them all.
         let row = |start: f32| -> Vec<Vec3> {
             (0..100).map(|k| Vec3::new(start + 1.5 * tolerance * k as f32, 0.0, 0.0)).collect()
         };
         let moved = row(0.8 * tolerance);
-        assert!(partners(&row(0.0), &moved, tolerance).iter().all(Option::is_some));
+        assert!(are_all_paired(&row(0.0), &moved));
     }
 
     #[test]
     fn what_has_no_counterpart_stays_alone() {
         let one = [Vec3::ZERO, Vec3::ONE, Vec3::NAN];
         let other = [Vec3::NAN, Vec3::ONE, 2.0 * Vec3::ONE, Vec3::NAN];
-        assert_eq!(partners(&one, &other, 0.1), [None, Some(1), Some(0)]);
-        assert_eq!(partners(&[], &other, 0.1), []);
-        assert_eq!(partners(&one, &[], 0.0), [None; 3]);
+        assert_eq!(partners(&PositionIndex::new(&one, 0.1), &other), [ALONE, 1, 0]);
+        assert_eq!(partners(&PositionIndex::new(&[], 0.1), &other), []);
+        assert_eq!(partners(&PositionIndex::new(&one, 0.0), &[]), [ALONE; 3]);
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use glam::Vec3;
+use photon_mapping::photon_list::PhotonRecord;
 
 /// More records than these in one cell are not all looked at: lists whose records all lie in one
 /// point would take quadratic time.
@@ -18,11 +19,29 @@ pub fn is_near(a: Vec3, b: Vec3, tolerance: f32) -> bool {
     a == b || a.distance(b) <= tolerance || (a.is_nan() && b.is_nan())
 }
 
+/// What lies somewhere. World space.
+pub trait Located {
+    /// Where.
+    fn position(&self) -> Vec3;
+}
+
+impl Located for Vec3 {
+    fn position(&self) -> Vec3 {
+        *self
+    }
+}
+
+impl Located for PhotonRecord {
+    fn position(&self) -> Vec3 {
+        self.position
+    }
+}
+
 /// Positions in the cells of a hashed grid: 9 bytes for each.
 #[derive(Debug)]
-pub struct PositionIndex<'list> {
-    positions: &'list [Vec3],
-    tolerance: f32,
+pub struct PositionIndex<'list, T = Vec3> {
+    pub(super) positions: &'list [T],
+    pub(super) tolerance: f32,
     /// The hash of each position's cell, then its place in the list, in ascending order. Cells of
     /// the same hash are mixed; who asks looks at the distance.
     entries: Vec<u64>,
@@ -31,14 +50,15 @@ pub struct PositionIndex<'list> {
     bits: u32,
 }
 
-impl<'list> PositionIndex<'list> {
+impl<'list, T: Located> PositionIndex<'list, T> {
     /// Sorts `positions` (world space) into the grid, for questions about points within
     /// `tolerance` world units.
-    pub fn new(positions: &'list [Vec3], tolerance: f32) -> Self {
+    pub fn new(positions: &'list [T], tolerance: f32) -> Self {
         let bits = (positions.len() / PER_BUCKET).max(2).ilog2();
         let mut index = Self { positions, tolerance, entries: Vec::new(), buckets: vec![0], bits };
-        let entry =
-            |(place, position): (u64, &Vec3)| u64::from(hash(index.cell(*position))) << 32 | place;
+        let entry = |(place, located): (u64, &T)| {
+            u64::from(hash(index.cell(located.position()))) << 32 | place
+        };
         let mut entries: Vec<u64> = (0..).zip(positions).map(entry).collect();
         entries.sort_unstable();
         let mut start = 0;
@@ -84,9 +104,14 @@ impl<'list> PositionIndex<'list> {
         place(self.entries[at])
     }
 
+    /// The position of the entry `at`.
+    pub(super) fn position(&self, at: usize) -> Vec3 {
+        self.positions[self.place(at)].position()
+    }
+
     /// Whether the position in `place` is within the tolerance of `point`.
     fn is_near(&self, place: usize, point: Vec3) -> bool {
-        is_near(self.positions[place], point, self.tolerance)
+        is_near(self.positions[place].position(), point, self.tolerance)
     }
 
     fn entries_of(&self, hash: u32) -> Range<usize> {

@@ -17,8 +17,10 @@ const BY_ROUNDING: f32 = 1e-3;
 const PROBES: usize = 200;
 /// How far apart two hits may be that count as one, in world units.
 const SAME_HIT: f32 = 1e-2;
-/// A run of more photons is not traced again.
+/// A run of more photons is not traced again, and a list of more records not held against it: both
+/// lists are in memory then.
 const MOST_PHOTONS: u64 = 20_000_000;
+const MOST_COMPARED: usize = 2_000_000;
 
 /// What the exact comparison finds; nothing for lists with other random numbers.
 pub fn exact_comparison(
@@ -27,6 +29,9 @@ pub fn exact_comparison(
     max_bounces: i32,
     emitted: Option<u64>,
 ) -> Option<Finding> {
+    if list.records.len() > MOST_COMPARED {
+        return None;
+    }
     let last = list.records.iter().map(|record| u64::from(record.photon)).max()?;
     let emitted = emitted.unwrap_or(last + 1);
     if !list.columns.photon || last >= emitted || emitted > MOST_PHOTONS {

@@ -97,7 +97,8 @@ fn named(name: &str) -> Cow<'_, str> {
     let is_plain = |letter: char| letter.is_alphanumeric() || "/\\._-+~@()[] ".contains(letter);
     // Letters of other scripts may look like a colon.
     let is_clear = name.is_ascii() || !name.contains(' ');
-    match is_clear && name.chars().all(is_plain) && name.trim() == name {
+    let has_edges = name.split(['/', '\\']).any(|part| part.trim() != part);
+    match is_clear && name.chars().all(is_plain) && !has_edges {
         true => Cow::Borrowed(name),
         false => Cow::Owned(format!("{name:?}")),
     }

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use super::error::{CliError, print};
+use super::output;
 
 /// The options of `kit`.
 #[derive(Debug, Args)]
@@ -82,9 +83,7 @@ fn write(out: &Path, files: &[KitFile]) -> Result<(), CliError> {
     }
     for KitFile { path, content, is_executable } in files {
         let path = out.join(path);
-        let folder = path.parent().unwrap_or(out);
-        fs::create_dir_all(folder).map_err(unwritable(folder))?;
-        fs::write(&path, content).map_err(unwritable(&path))?;
+        output::write(&path, content)?;
         if *is_executable {
             make_executable(&path).map_err(unwritable(&path))?;
         }

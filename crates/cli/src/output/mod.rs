@@ -60,9 +60,9 @@ pub fn folder(path: &Path) -> Result<&Path, CliError> {
 ///
 /// # Errors
 /// When it cannot be written; what stood there before is then still there.
-pub fn write(path: &Path, contents: &str) -> Result<(), CliError> {
+pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), CliError> {
     let mut file = OutputFile::create(path)?;
-    let written = file.file().write_all(contents.as_bytes());
+    let written = file.file().write_all(contents.as_ref());
     written.map_err(|error| CliError::unwritable(path, error))?;
     file.persist()
 }
