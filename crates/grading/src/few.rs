@@ -15,6 +15,10 @@ const EMITTED: u64 = 400_000;
 const SEED: u64 = 0x9_2020;
 const PIECE: u64 = 1 << 16;
 
+/// Counts that are fewer standard deviations from their mean than this, as of photons that come on
+/// their own, are not worth a test: of 26, one is as far by chance.
+const WORTH: f64 = 2.5;
+
 /// Photons that one path stores on a class, and in all.
 type Stored = (usize, usize);
 
@@ -61,9 +65,21 @@ impl StoredByPaths {
             return None;
         }
         let tails = self.of_classes.iter().zip(counts);
+        let tails = tails.filter(|(paths, count)| is_far(paths, all, **count));
         let tails = tails.map(|(paths, count)| smaller_tail(paths, all, *count as usize));
         Some(corrected(tails.fold(1.0, f64::min), 2 * self.of_classes.len()))
     }
+}
+
+/// Whether `count` of `all` photons are so far from what is usual on a class that it is worth a
+/// test: paths that store several photons there only spread the counts.
+fn is_far(paths: &BTreeMap<Stored, f64>, all: usize, count: f64) -> bool {
+    let mean = |stored: fn(&Stored) -> usize| {
+        paths.iter().map(|(path, share)| share * stored(path) as f64).sum::<f64>()
+    };
+    let part = mean(|(on, _)| *on) / mean(|(_, all)| *all);
+    let all = all as f64;
+    (count - all * part).powi(2) > (WORTH * WORTH) * all * part * (1.0 - part)
 }
 
 /// The smaller of the chances that of `all` photons at most, or at least, `count` are on a class:

@@ -10,6 +10,7 @@ use super::statistics::{Fit, corrected};
 use super::trial::means_like;
 use variants::hypotheses::{BOUNCE_OFF_BY_ONE, FAIR, Hypothesis};
 use variants::pairs::{OTHER_ROULETTE, PAIR};
+use variants::variation::Storage;
 
 /// A misreading that explains a submission, or two at once.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,8 +71,11 @@ pub(crate) fn bounces_show(max_bounces: i32) -> bool {
 pub(crate) fn candidates<E: Evidence>(evidence: &E, joined: &Joined) -> Vec<Explanation> {
     let table = evidence.table();
     let can_be_seen = |known: &&Known<E::Signature>| {
-        let is_bounces = known.hypothesis.id == BOUNCE_OFF_BY_ONE;
-        evidence.may_be(&known.hypothesis) && (!is_bounces || bounces_show(table.max_bounces))
+        let Hypothesis { id, variation, .. } = &known.hypothesis;
+        // Of two bounces, the first alone is left by one bounce fewer as well.
+        let has_other_name = variation.storage == Storage::FirstBounce && table.max_bounces <= 2;
+        let shows = *id != BOUNCE_OFF_BY_ONE || bounces_show(table.max_bounces);
+        evidence.may_be(&known.hypothesis) && shows && !has_other_name
     };
     let faults = table.faults().filter(can_be_seen);
     let faults = faults.map(|known| hold_against(evidence, joined, known, evidence.emitted()));

@@ -122,10 +122,11 @@ pub fn tails_of_count(count: f64, mean: f64, variance: f64) -> f64 {
     normal.max((2.0 * gamma).min(1.0))
 }
 
-/// The chance that the smallest of `tests` independent p-values is at most `p_value` (Sidak).
+/// The chance that the smallest of `tests` independent p-values, of which there is at least one, is
+/// at most `p_value` (Sidak).
 pub fn corrected(p_value: f64, tests: usize) -> f64 {
     // Without the cancellation of 1 - (1 - p)^n.
-    -(tests as f64 * (-p_value.min(1.0)).ln_1p()).exp_m1()
+    -(tests.max(1) as f64 * (-p_value.min(1.0)).ln_1p()).exp_m1()
 }
 
 /// The lower triangle L of a covariance L L^T.
