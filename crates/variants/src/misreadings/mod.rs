@@ -156,7 +156,7 @@ pub fn table() -> String {
             let titles: Vec<&str> = same.iter().map(|way| way.title.as_str()).collect();
             let (titles, advice) = (titles.join(", or "), misreading.map_or("", |it| it.advice));
             let picture = format!("![{id}](misreadings/{id}.png)");
-            text += &format!("| `{id}` | {titles}.<br>{advice} | {picture} |\n");
+            text += &format!("| `{id}` | {titles}. <br>{advice} | {picture} |\n");
         }
     }
     text
