@@ -31,10 +31,11 @@ const CSV_HEADER: &str = "submission,verdict,score,misreadings,builds,emission,s
                   This runs code from strangers. Use a container or an account of its own.\n\
                   Exit codes: 0 all submissions were checked; 2 one could not be.")]
 pub struct CheckArgs {
-    /// Folders anywhere above PointLight.cpp and PhotonMappingRenderer.cpp, or one of these files
+    /// A folder with PointLight.cpp and PhotonMappingRenderer.cpp anywhere in it, or one of these
+    /// files
     #[arg(value_name = "SUBMISSION", required = true)]
     submissions: Vec<PathBuf>,
-    /// Take each SUBMISSION for a class: a folder whose subfolders are submissions
+    /// Each SUBMISSION is a class: a folder with a folder for each student
     #[arg(long)]
     class: bool,
     /// How long the compiler may take for a file, and how long the whole run may take, in

@@ -33,12 +33,12 @@ const DIFFERENT: u8 = 1;
 #[command(
     after_help = "Exit codes: 0 the same: bit for bit, within the tolerance, or (without --strict) \
                   under another fair reading of the handout; 1 different; 2 could not be read.\n\
-                  Pictures count as the same when no channel of any pixel is further off than one \
-                  step of 255, and every pixel has or lacks its dot in both."
+                  Pictures are the same if each channel of each pixel is, up to one step of 255, \
+                  and if both have the same dots."
 )]
 pub struct CompareArgs {
-    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures;
-    /// with --seed or --photons a list alone, and the reference is traced on the spot
+    /// Two photon lists (PLY or CSV, with at least the columns x, y and z) or two PNG pictures,
+    /// the reference first. With --seed or --photons, one list: the reference is traced
     #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
     /// For lists: two positions closer than this are the same, as a fraction of the scene's longest
@@ -49,12 +49,12 @@ pub struct CompareArgs {
     /// same (0.001 allows one in a thousand)
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     allow: f32,
-    /// For lists: count as different what is the same only under another fair reading of the
-    /// handout
+    /// For lists: count a list as different if it is the same only under another fair reading of
+    /// the handout
     #[arg(long)]
     strict: bool,
-    /// For pictures: how many pixels may have or lack a dot that the other picture has not; the
-    /// framework's picture of the reference's list has up to 5 such
+    /// For pictures: how many pixels may have a dot in only one of the two. The framework's picture
+    /// of the reference's list has up to 5
     #[arg(long, value_name = "N", default_value_t = 0)]
     dots: u64,
     /// For pictures: where to write the difference picture; if the name ends in .html, a page with

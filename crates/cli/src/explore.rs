@@ -32,7 +32,7 @@ pub struct ExploreArgs {
     /// Open the page on this photon [default: the first that is stored]
     #[arg(long, value_name = "N")]
     photon: Option<u64>,
-    /// Lay this photon list (PLY or CSV) over the reference's
+    /// Show this photon list (PLY or CSV) over the reference's
     #[arg(long, value_name = "FILE", conflicts_with = "misreading")]
     submission: Option<PathBuf>,
     /// Lay over the reference's list what this misreading stores, as transposed-frame

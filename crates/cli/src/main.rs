@@ -78,13 +78,13 @@ enum Command {
     /// Compile and run a submission's two C++ files, and judge each section of the handout
     #[cfg(unix)]
     Check(check::CheckArgs),
-    /// Hold a photon list (or a picture) against the reference
+    /// Compare a photon list or a picture with the reference
     Compare(Box<compare::CompareArgs>),
-    /// Tell the whole story of one photon
+    /// Show every random number, hit and decision of one photon
     Explain(Box<explain::ExplainArgs>),
     /// Write a page that shows the photons in 3-D and steps through the code on one of them
     Explore(Box<explore::ExploreArgs>),
-    /// Judge submissions of any generator: correct, or what was misread
+    /// Grade lists and pictures, whatever their random numbers: correct, or which misreading
     Grade(grade::GradeArgs),
     /// Compute how many hits are expected, without tracing a photon
     Expect(expect::ExpectArgs),

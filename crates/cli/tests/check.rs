@@ -35,12 +35,18 @@ fn a_right_solution_has_the_photons_of_the_reference() {
 fn a_class_gets_a_page_each_and_an_index() {
     let folder = folder();
     let (class, pages) = (folder.path().join("class"), folder.path().join("pages"));
-    for (student, change) in [("alice", ("", "")), ("bob", ("remainingBounces - 1);", "left);"))] {
+    let two_faults = [("std::sqrt(u1)", "u1"), ("path.size() > 1", "path.size() > 0")];
+    for (student, changes) in [
+        ("alice", &[][..]),
+        ("bob", &[("remainingBounces - 1);", "left);")]),
+        ("carol", &two_faults),
+    ] {
         let home = class.join(student);
         fs::create_dir_all(&home).expect("can be made");
         for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
             let text = fs::read_to_string(solution().join(name)).expect("a file");
-            fs::write(home.join(name), text.replace(change.0, change.1)).expect("can be written");
+            let text = changes.iter().fold(text, |text, (from, to)| text.replace(from, to));
+            fs::write(home.join(name), text).expect("can be written");
         }
     }
     let line = "check --class {} --quiet --format html --out {}";
@@ -58,6 +64,16 @@ fn a_class_gets_a_page_each_and_an_index() {
     assert!(page("alice.html").contains("4 of 4 points"));
     assert!(page("alice.html").matches("data:image/png").count() >= 2);
     assert!(page("bob.html").contains("`left` is declared in no file you handed in"));
+    // Both sections that are wrong stand open, and neither is the whole explanation.
+    let carol = page("carol.html");
+    let (open, _) = carol.split_once("<details>").expect("what is right is folded");
+    for section in ["Photon Storage", "Hemisphere Sampling"] {
+        let row = format!("<tr class=\"fault\"><th scope=\"row\">{section}</th>");
+        assert!(open.contains(&row), "{section}: {open}");
+        assert_eq!(carol.matches(&format!(">{section}<")).count(), 1, "{section}");
+    }
+    assert!(!carol.contains("% sure") && !carol.contains("what the handout asks for"));
+    assert!(page("index.html").contains("<td>Photon Storage, Hemisphere Sampling</td>"));
     let bob = class.join("bob");
     let table = stdout(run_line("check {} --format csv", &[&bob]).success());
     assert_eq!(table.lines().count(), 2, "{table}");
@@ -70,6 +86,10 @@ fn a_class_gets_a_page_each_and_an_index() {
 #[test]
 fn a_missing_folder_and_a_list_of_two_are_refused() {
     fails("check {} {} --list out.csv", &[&solution(), &solution()], &["--list", "found 2"]);
+    let checked = run_line("check nosuch", &[]).code(2);
+    let errors = String::from_utf8_lossy(&checked.get_output().stderr).into_owned();
+    let last = errors.lines().last().expect("an error");
+    assert_eq!(last, "error: nosuch: cannot be read: No such file or directory");
 }
 
 /// Without `--class`, one student's files would be judged for all.

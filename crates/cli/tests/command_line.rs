@@ -461,3 +461,20 @@ fn sobol_sampler_is_a_labelled_extra() {
     fail(&folder, &["--sampler", "halton"], &["halton"]);
     fail(&folder, &["--photons-from", "a.ply", "--sampler", "sobol"], &["--sampler"]);
 }
+
+#[test]
+fn colors_are_a_choice() {
+    let folder = TempDir::new().unwrap();
+    let run = |line: &str| run(&folder, &line.split(' ').collect::<Vec<_>>());
+    let message = |line: &str| text(&run(line).stderr).to_owned();
+    // A pipe gets none unless it asks.
+    let plain = message("explain nine");
+    assert!(plain.starts_with("error: ") && !plain.contains('\u{1b}'), "{plain}");
+    for line in ["--color always explain nine", "explain nine --color=always"] {
+        assert!(message(line).starts_with("\u{1b}[1;31merror:\u{1b}[0m "), "{line}");
+    }
+    let help = |line: &str| text(&run(line).stdout).to_owned();
+    assert!(help("grade --help --color always").contains("\u{1b}["));
+    assert!(!help("grade --help --color never").contains("\u{1b}["));
+    assert!(message("--color pink explain 1").contains("expected auto, always or never"));
+}

@@ -273,6 +273,11 @@ fn pictures_are_compared_dot_by_dot() {
     let picture = image::open(&out).expect("a picture").into_rgb8();
     let red = picture.pixels().filter(|pixel| pixel.0 == [255, 0, 0]).count() as u64;
     assert_eq!(red, extra);
+    let page = folder.path().join("difference.html");
+    run_line("compare {} {} --out {}", &[&few, &many, &page]).code(1);
+    let page = fs::read_to_string(page).expect("a page");
+    assert_eq!(page.matches("src=\"data:image/png").count(), 3);
+    assert!(page.contains("blue: missing dot") && page.contains(&format!("extra    {extra}")));
     let text = stdout(run_line("compare {} {}", &[&many, &few]).code(1));
     assert!(text.contains(&format!("missing  {extra}")), "{text}");
     let [enough, too_few] = [extra, extra - 1].map(|count| count.to_string());

@@ -162,7 +162,7 @@ class Page {
     const lines = [];
     if (moved && mode === "kind") {
       // More lines than this hide the box; those of the photon that is open are always drawn.
-      const every = Math.ceil(moved.length / 3000);
+      const every = Math.ceil(moved.length / 800);
       for (let k = 0; k < moved.length; k++) {
         const index = run.stored + k,
           isOpen = run.photons[run.pathOf[moved[k]]] === this.photon;
@@ -189,7 +189,7 @@ class Page {
 
   listen() {
     const on = (id, kind, action) => $(id).addEventListener(kind, action);
-    const centre = () => {
+    const center = () => {
       const step = this.steps[this.at],
         hit = this.story?.hits[Math.min(step.bounce, this.story.hits.length - 1)];
       this.moveCamera({
@@ -209,7 +209,7 @@ class Page {
       });
     };
     on("home", "click", home);
-    on("centre", "click", centre);
+    on("center", "click", center);
     for (const id of ["colors", "from", "to", "alone"]) on(id, "input", () => this.showDots());
     on("walls", "input", () => {
       if (this.view) {
@@ -242,7 +242,7 @@ class Page {
       n: () => this.skip(1),
       p: () => this.skip(-1),
       h: home,
-      c: centre,
+      c: center,
       "+": () => this.mouse?.zoom(0.85),
       "=": () => this.mouse?.zoom(0.85),
       "-": () => this.mouse?.zoom(1.18),

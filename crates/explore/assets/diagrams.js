@@ -1,4 +1,4 @@
-// Small drawings beside the code, as SVG. Colours come from the style sheet.
+// Small drawings beside the code, as SVG. Colors come from the style sheet.
 
 const SVG = "http://www.w3.org/2000/svg";
 function draw(tag, attributes = {}, ...children) {
@@ -31,8 +31,8 @@ function arrow(from, to, kind) {
 }
 /** World axes on paper: x to the right, z up, y into the paper. */
 const oblique =
-  (centre, size) =>
-  ([x, y, z]) => [centre[0] + size * (x + 0.38 * y), centre[1] - size * (z + 0.3 * y)];
+  (center, size) =>
+  ([x, y, z]) => [center[0] + size * (x + 0.38 * y), center[1] - size * (z + 0.3 * y)];
 
 const diagrams = {
   cube(tries) {
@@ -144,7 +144,7 @@ const diagrams = {
       text([x(0), 84], "0", "middle small"),
       text([x(1), 84], "1", "middle small"),
       text(
-        [Math.min(Math.max(x(u), 60), 240), 18],
+        [Math.min(Math.max(x(u), 95), 205), 18],
         `u = ${digits(u)}: ${scatters ? "scatters" : "absorbed"}`,
         "middle strong",
       ),
@@ -187,33 +187,24 @@ const diagrams = {
   },
   frame(t, b, n, direction, bare) {
     const at = oblique([150, 88], 62),
-      centre = at([0, 0, 0]);
-    const axes = [
-      ["x", [1, 0, 0]],
-      ["y", [0, 1, 0]],
-      ["z", [0, 0, 1]],
-    ].map(([name, axis]) =>
+      center = at([0, 0, 0]);
+    // An arrow along an axis has its name there.
+    const isFree = (axis) => [t, b, n].every((arrow) => dot(arrow, axis) < 0.9);
+    const axes = Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }).map(([name, axis]) =>
       draw(
         "g",
         {},
-        line(centre, at(axis), "faint"),
-        text([at(axis)[0] + 3, at(axis)[1]], name, "small faint-text"),
+        line(center, at(axis), "faint"),
+        ...(isFree(axis) ? [text([at(axis)[0] + 3, at(axis)[1]], name, "small faint-text")] : []),
       ),
     );
     const local = [dot(direction, t), dot(direction, b), dot(direction, n)];
     const short = unit(add(add(scale(t, bare * local[0]), b, bare * local[1]), n, local[2]));
-    const named = [
-      ["t", t],
-      ["b", b],
-      ["n", n],
-    ].map(([name, axis]) =>
-      draw(
-        "g",
-        {},
-        arrow(centre, at(axis), name),
-        text([at(axis)[0] + 6, at(axis)[1] + (at(axis)[1] > centre[1] ? 12 : -4)], name, "strong"),
-      ),
-    );
+    const named = Object.entries({ t, b, n }).map(([name, axis]) => {
+      const [x, y] = at(axis);
+      const place = [x + (x < center[0] - 20 ? -16 : 6), y + (y > center[1] ? 12 : -4)];
+      return draw("g", {}, arrow(center, [x, y], name), text(place, name, "strong"));
+    });
     const isUnit = Math.abs(bare - 1) < 1e-3;
     return picture(
       300,
@@ -221,8 +212,8 @@ const diagrams = {
       "The frame t, b, n in world axes, with the new direction",
       ...axes,
       ...named,
-      arrow(centre, at(direction), "path"),
-      ...(isUnit ? [] : [draw("g", { class: "dash" }, arrow(centre, at(short), "no"))]),
+      arrow(center, at(direction), "path"),
+      ...(isUnit ? [] : [draw("g", { class: "dash" }, arrow(center, at(short), "no"))]),
       text(
         [6, 170],
         isUnit

@@ -248,11 +248,12 @@ impl ListComparison {
         let found = divergence.and_then(|divergence| divergence.reason.clone()).unwrap_or_default();
         let doubt =
             if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
+        let note = || self.report.note.as_deref().map(sentence).unwrap_or_default();
         let (kind, reason, advice) = match &self.other {
-            Other::Submission(_) if found.is_empty() => ("submission", String::new(), ""),
-            Other::Submission(_) => ("submission", sentence(&(found + doubt)), ""),
+            Other::Submission(_) if found.is_empty() => ("submission", String::new(), note()),
+            Other::Submission(_) => ("submission", sentence(&(found + doubt)), note()),
             Other::Misreading { title, advice, .. } => {
-                ("misreading", sentence(title), advice.as_str())
+                ("misreading", sentence(title), advice.clone())
             }
         };
         json!({

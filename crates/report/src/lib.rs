@@ -24,7 +24,8 @@ mod true_paths;
 use plan::Plan;
 
 /// The files of a report, in the order in which the page names them.
-pub const FILES: [&str; 12] = [
+pub const FILES: [&str; 13] = [
+    "report.html",
     "report.md",
     "speed-runs.csv",
     "speed.csv",
@@ -59,7 +60,7 @@ pub fn run(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Vec<(&'static str, 
         machine::section(plan),
     ];
     let page = page::assemble(plan, &sections);
-    let mut files = vec![("report.md", page)];
-    files.extend(sections.into_iter().flat_map(|section| section.files));
-    files
+    let files: Vec<_> = sections.into_iter().flat_map(|section| section.files).collect();
+    let html = page::html(&page, &files);
+    [vec![("report.html", html), ("report.md", page)], files].concat()
 }

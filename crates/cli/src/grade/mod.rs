@@ -31,33 +31,27 @@ use standard_input::{STANDARD_INPUT, StandardInput};
 /// The options of `grade`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Submissions: a file is one, and so is a folder, in which the list and the picture are found by \
-what they contain; alice.csv and alice.png are one. A folder without a list or a picture of its \
-own, but with several in the folders of at least two students, is a class: each folder in it is a \
-submission. Say --class or --submission where a folder could be both. What is wrong with a file is \
-in its grade, and stops no other.
+Submissions: a file is a submission, and so is a folder. The list and the picture in a folder \
+are found by their contents. alice.csv and alice.png are one submission.
 
-Of several lists or pictures in one folder, that called photons or assignment8 is judged, or any \
-if all \
-are the same, and what is left out is remarked; else they are not judged.
+Classes: a folder is a class if it has no list or picture of its own, but folders of at least \
+two students do. Use --class or --submission if a folder could be either. A fault of one \
+submission stops no other.
 
-A SUBMISSION that does not exist is no student's fault: the others are graded, then it is named, \
-with \
-exit code 2.
+Several lists or pictures in one folder: the one called photons or assignment8 is judged, or any \
+if all are the same. Otherwise none is. A remark names those left out.
 
-Several submissions: text and JSON go to one output; gradescope and html write a file for each \
-into \
-the folder --out, html also an index.html.
+Output: text, JSON and CSV go to one file. gradescope and html write a file for each submission \
+into the folder --out, and html an index.html too. The exit code is 2 if a SUBMISSION does not \
+exist; the others are graded.
 
-Policy: a JSON object that gives scores, each of which may be left out, by default
+Policy: a JSON object of scores. Those left out are
   { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \
 \"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
-'undecided' is for lists with too few photons to tell: look at them yourself. 'plausible' is for \
-incorrect photons that are finite, on surfaces and indirect only. 'misreadings' gives incorrect \
-ones \
-with a named misreading a score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. \
-'sections' \
-gives the points of each section that 'check' finds right, by its title.
+'undecided' is for too few photons: look at them yourself. 'plausible' is for incorrect photons \
+that are finite, on surfaces and indirect. 'misreadings' gives named misreadings a score of \
+their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each section \
+that 'check' finds right, by its title.
 
 Exit codes: 0 graded, whatever the grades; 2 could not be carried out.")]
 pub struct GradeArgs {
@@ -70,8 +64,7 @@ pub struct GradeArgs {
     /// A folder is one submission, whatever is in it
     #[arg(long)]
     submission: bool,
-    /// How many photons the submissions emitted, if their lists have no intensity column that says
-    /// it [default: from the intensities]
+    /// How many photons each submission emitted [default: what the intensities say]
     #[arg(long, value_name = "N", allow_negative_numbers = true,
           value_parser = values::whole(1, u64::from(u32::MAX)))]
     emitted: Option<u64>,
@@ -79,8 +72,7 @@ pub struct GradeArgs {
     #[arg(long, value_name = "N", default_value_t = assignment8::MAX_PHOTON_BOUNCES,
           allow_negative_numbers = true, value_parser = values::whole(0_i32, 1000))]
     max_bounces: i32,
-    /// The seed that submissions used, if they draw the reference's random numbers; others need
-    /// none
+    /// The seed of submissions that draw the reference's random numbers; others need none
     #[arg(long, value_name = "N", default_value_t = assignment8::SEED,
           allow_negative_numbers = true, value_parser = values::whole(0, u64::MAX))]
     seed: u64,

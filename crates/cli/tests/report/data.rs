@@ -19,7 +19,7 @@ pub static REPORT: LazyLock<HashMap<String, String>> = LazyLock::new(|| {
     let folder = TempDir::new().unwrap();
     let output = run(folder.path(), &["report", "--quick"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert_eq!(String::from_utf8_lossy(&output.stdout), "written: report/report.md\n");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "written: report/report.html\n");
     assert!(output.stderr.is_empty());
     let entries = fs::read_dir(folder.path().join("report")).unwrap();
     let file = |entry: std::io::Result<fs::DirEntry>| {

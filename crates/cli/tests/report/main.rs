@@ -26,7 +26,12 @@ fn page_shows_plots_that_are_there() {
     for link in page.split("](").skip(1).map(|rest| rest.split(')').next().unwrap()) {
         assert!(REPORT.contains_key(link), "the page links to '{link}'");
     }
-    assert_eq!(REPORT.len(), 12);
+    assert_eq!(REPORT.len(), 13);
+    // The same in one file that needs no other.
+    let html = &REPORT["report.html"];
+    assert_eq!(html.matches("src=\"data:image/svg+xml;base64,").count(), 4);
+    assert_eq!(html.matches("<table>").count(), page.matches("\n|---").count());
+    assert!(html.contains("<h1>Speed and accuracy</h1>") && !html.contains("src=\"http"));
     for part in ["rustc", "photon-mapping report --quick", "seeds of section 1"] {
         assert!(page.contains(part), "{part}");
     }

@@ -157,9 +157,16 @@ pub fn table() -> String {
         for same in ways.chunk_by(|a, b| a.id == b.id) {
             let Hypothesis { id, misreading, .. } = same[0];
             let titles: Vec<&str> = same.iter().map(|way| way.title.as_str()).collect();
-            let (titles, advice) = (titles.join(", or "), misreading.map_or("", |it| it.advice));
+            let titles = match titles.len() {
+                1..=3 => titles.join(". Or: "),
+                count => {
+                    let (first, last) = (titles[0], titles[count - 1]);
+                    format!("{first}. Or: {last}. Or one of {} ways like these", count - 2)
+                }
+            };
+            let advice = misreading.map_or("", |it| it.advice);
             let picture = format!("![{id}](misreadings/{id}.png)");
-            text += &format!("| `{id}` | {titles}.<br>{advice} | {picture} |\n");
+            text += &format!("| `{id}` | {titles}. <br>{advice} | {picture} |\n");
         }
     }
     text
