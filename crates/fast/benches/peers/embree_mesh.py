@@ -29,17 +29,17 @@ def mesh_and_rays(triangles, rays):
 
 
 class Embree:
-    """Embree with the mesh; `build_seconds` is the time of the build."""
+    """Embree with the mesh; `build_seconds` is the processor time of the build."""
 
     def __init__(self, corners):
-        start = time.perf_counter()
+        start = time.process_time()
         self.scene = rtcore_scene.EmbreeScene()
         self.mesh = TriangleMesh(self.scene, corners)
         self.scene.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
-        self.build_seconds = time.perf_counter() - start
+        self.build_seconds = time.process_time() - start
 
     def closest(self, origins, directions):
-        """Seconds a ray, and the triangles hit or -1."""
-        start = time.perf_counter()
+        """Seconds of processor time a ray, and the triangles hit or -1."""
+        start = time.process_time()
         hits = self.scene.run(origins, directions)
-        return (time.perf_counter() - start) / len(origins), hits
+        return (time.process_time() - start) / len(origins), hits

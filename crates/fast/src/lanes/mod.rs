@@ -140,14 +140,15 @@ impl<'renderer> LaneTracer<'renderer> {
     /// Traces the photons numbered `photons` on this thread: the records of
     /// [`crate::trace::trace_with_port`], bit for bit.
     pub fn trace_piece(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
-        self.trace_piece_by_stages(photons, |_| ())
+        self.trace_piece_by_stages(photons, |_, _| ())
     }
 
-    /// As [`Self::trace_piece`]. `done` is told of every part that is done: see `benches/stages.rs`.
+    /// As [`Self::trace_piece`]. `done` is told of every part that is done and for how many
+    /// photons: see `benches/stages.rs`.
     pub fn trace_piece_by_stages(
         &self,
         photons: Range<u64>,
-        mut done: impl FnMut(Stage),
+        mut done: impl FnMut(Stage, usize),
     ) -> Vec<PhotonRecord> {
         let mut records = Vec::new();
         let lights = self.renderer.stored_scene.lights();

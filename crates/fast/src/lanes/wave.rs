@@ -69,7 +69,7 @@ impl Arrivals {
 
 impl LaneTracer<'_> {
     /// Traces the photons `photons` of `light` and adds what they store to `records`. `done` is told
-    /// of every part that is done, for those who take the time.
+    /// of every part that is done and for how many photons, for those who take the time.
     pub(super) fn trace_wave(
         &self,
         light: &PointLight,
@@ -77,7 +77,7 @@ impl LaneTracer<'_> {
         light_intensity: Vec3,
         photons: Range<u64>,
         records: &mut Vec<PhotonRecord>,
-        done: &mut impl FnMut(Stage),
+        done: &mut impl FnMut(Stage, usize),
     ) {
         if self.renderer.max_photon_bounces < 0 {
             return;
@@ -100,10 +100,10 @@ impl LaneTracer<'_> {
                     surface: self.surface(arrival).mesh_object,
                 });
             by_bounce.push(stored.collect());
-            done(Stage::Records);
+            done(Stage::Records, arrivals.places.len());
         }
         join(&by_bounce, records);
-        done(Stage::Records);
+        done(Stage::Records, 0);
     }
 
     fn surface(&self, arrival: &Arrival) -> &LaneSurface {
@@ -117,10 +117,12 @@ impl LaneTracer<'_> {
         light: &PointLight,
         outlook: &Outlook,
         photons: Range<u64>,
-        done: &mut impl FnMut(Stage),
+        done: &mut impl FnMut(Stage, usize),
     ) -> Arrivals {
+        let count = (photons.end - photons.start) as usize;
         let mut departures = self.depart(outlook, photons);
-        done(Stage::Emission);
+        done(Stage::Emission, count);
+        let count = departures.len();
         let triangles = self.surfaces.len();
         let mut first_hits = FirstHits::new(outlook, self.width, triangles, departures.len());
         let mut point = [[0.0; emission::GROUP]; 3];
@@ -149,9 +151,9 @@ impl LaneTracer<'_> {
                 arrivals.draws.push(draws);
             }
         }
-        done(Stage::FirstHit);
-        self.complete(&mut arrivals.draws);
-        done(Stage::Numbers);
+        done(Stage::FirstHit, count);
+        let count = self.complete(&mut arrivals.draws);
+        done(Stage::Numbers, count);
         arrivals
     }
 
@@ -195,15 +197,17 @@ impl LaneTracer<'_> {
         departures
     }
 
-    /// Draws again what the first block was not long enough for.
-    fn complete(&self, draws: &mut [Draws]) {
+    /// Draws again what the first block was not long enough for, and counts it.
+    fn complete(&self, draws: &mut [Draws]) -> usize {
         let is_lacking = |draws: &Draws| draws.drawn + 3 > chacha::WORDS as u32;
         let lacking: Vec<usize> = (0..draws.len()).filter(|at| is_lacking(&draws[*at])).collect();
         let mut completed: Vec<Draws> = lacking.iter().map(|at| draws[*at]).collect();
         draws::fill(self.width, self.renderer.seed, &mut completed);
+        let count = lacking.len();
         for (at, completed) in lacking.into_iter().zip(completed) {
             draws[at] = completed;
         }
+        count
     }
 
     /// Goes on with the rejection loops of the departures at `places`.
@@ -231,7 +235,7 @@ impl LaneTracer<'_> {
 
     /// Plays the roulette for all of `arrivals`, scatters those that survive, and gives what these
     /// hit next.
-    fn scatter(&self, arrivals: &Arrivals, done: &mut impl FnMut(Stage)) -> Arrivals {
+    fn scatter(&self, arrivals: &Arrivals, done: &mut impl FnMut(Stage, usize)) -> Arrivals {
         let mut survivors = Vec::with_capacity(arrivals.places.len());
         for (place, (arrival, draws)) in arrivals.places.iter().zip(&arrivals.draws).enumerate() {
             if number(draws.words[0]) < self.surface(arrival).probability_of_reflection {
@@ -267,7 +271,7 @@ impl LaneTracer<'_> {
                 offset: self.offset,
                 rays: &mut rays,
             });
-            done(Stage::Scattering);
+            done(Stage::Scattering, group.len());
             self.width.run(Closest { scene: &self.corners, rays: &rays, hits: &mut hits });
             hits.settle(&self.renderer.stored_scene, &rays, group.len());
             for (lane, place) in group.iter().enumerate() {
@@ -283,10 +287,10 @@ impl LaneTracer<'_> {
                     next.draws.push(Draws { photon, drawn: drawn + 3, words: [0; 3] });
                 }
             }
-            done(Stage::LaterHits);
+            done(Stage::LaterHits, group.len());
         }
         draws::fill(self.width, self.renderer.seed, &mut next.draws);
-        done(Stage::Numbers);
+        done(Stage::Numbers, next.draws.len());
         next
     }
 }
