@@ -126,6 +126,14 @@ impl Observed {
         self.log.steps.get(number)
     }
 
+    /// The calls of a step that did not die: calls up to a death are no fair sample.
+    pub fn calls(&self, step: Step) -> &[crate::events::Call] {
+        match (self.death(step), self.step(step)) {
+            (None, Some(log)) => &log.calls,
+            _ => &[],
+        }
+    }
+
     /// How a step died.
     pub fn death(&self, step: Step) -> Option<&Death> {
         let number = plan::steps().iter().position(|other| *other == step)?;

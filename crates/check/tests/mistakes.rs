@@ -193,3 +193,13 @@ fn a_crash_in_every_call_is_told_once() {
     let statuses = report.sections[2..].iter().map(|verdict| verdict.status);
     assert!(statuses.clone().all(|status| status == Status::NotReached));
 }
+
+/// What ends a call only where its ray meets nothing says nothing about the roulette.
+#[test]
+fn a_recursion_without_end_at_a_miss_is_told_under_storage() {
+    let miss = "&state)) {\n        return;";
+    let again = "&state)) {\n        TracePhoton(photonMap, photonRay, lightIntensity, path, \
+                 currentIOR, remainingBounces);\n        return;";
+    let Some(report) = report(&[(miss, again)]) else { return };
+    assert_eq!(faults(&report), [(Section::PhotonStorage, None)], "{}", sections_text(&report));
+}

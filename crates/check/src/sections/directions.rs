@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec3};
 
 use super::sampling::{LAWS, Law};
-use crate::events::{Call, StepLog, Trace};
+use crate::events::{Call, Trace};
 use crate::plan::{self, Step};
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform};
@@ -78,10 +78,8 @@ pub struct Directions {
 impl Directions {
     /// What was seen.
     pub fn of(observed: &Observed) -> Self {
-        let scattered = |step: Step| {
-            let calls = observed.step(step).map_or(&[][..], StepLog::ended_calls);
-            calls.iter().filter_map(of_call).collect::<Vec<_>>()
-        };
+        let scattered =
+            |step: Step| observed.calls(step).iter().filter_map(of_call).collect::<Vec<_>>();
         let floor = scattered(Step::Floor);
         let walls = plan::wall_normals();
         let walls = walls.into_iter().map(|n| (n, scattered(Step::Wall(n)))).collect();

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Verdict;
-use crate::events::{Call, StepLog};
+use crate::events::Call;
 use crate::plan::{COLOURS, Step};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
@@ -125,7 +125,7 @@ const RULES: [Rule; 14] = [
 
 pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     let mut verdict = Verdict::new(Section::PhotonScatteringAbsorption);
-    let calls = |step: Step| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
+    let calls = |step| observed.calls(step);
     // What happens at the first hit, by the wall's colour.
     let walls: Vec<_> = [
         (Step::Black, Vec3::ZERO),
@@ -139,14 +139,16 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     .into_iter()
     .map(|(step, colour)| (colour, counts(calls(step), 1)))
     .collect();
-    let tried: usize = walls.iter().map(|(_, [total, _])| total).sum();
+    // On a black wall, nothing is to scatter.
+    let bright = walls.iter().filter(|(colour, _)| *colour != Vec3::ZERO);
+    let tried: usize = bright.map(|(_, [total, _])| total).sum();
     let scattered: usize = walls.iter().map(|(_, [_, count])| count).sum();
     if tried == 0 {
         if STEPS.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("no photon hit anything: TracePhoton does not call Trace");
         }
     } else if scattered == 0 {
-        let found = format!("no photon scatters, of {tried} that hit walls with P_r from 0 to 1");
+        let found = format!("no photon scatters, of {tried} that hit walls with P_r from 0.3 to 1");
         let advice = "Draw a random number in [0, 1); if it is less than P_r, call TracePhoton \
                       with the new ray.";
         verdict.fault(Some("never-scatters"), found, advice);
