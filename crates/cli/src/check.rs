@@ -203,7 +203,7 @@ fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Res
     }
     if extension == "html" {
         let pages: Vec<_> = all.iter().map(|checked| &checked.grade).zip(files).collect();
-        write(&folder.join("index.html"), &index(&pages, best))?;
+        write(&folder.join("index.html"), index(&pages, best))?;
     }
     Ok(())
 }

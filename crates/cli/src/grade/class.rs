@@ -115,7 +115,7 @@ impl Class<'_> {
         if self.format == FormatName::Html
             && let Some(folder) = &self.folder
         {
-            let written = write(&folder.join(&self.files[at]), &std::mem::take(&mut kept.output));
+            let written = write(&folder.join(&self.files[at]), std::mem::take(&mut kept.output));
             kept.failed(written);
         }
         self.write_results(at, &mut kept);
@@ -159,7 +159,7 @@ impl Class<'_> {
         match (&self.folder, out) {
             (Some(folder), _) if self.format == FormatName::Html => {
                 let pages: Vec<_> = grades.into_iter().zip(self.files.iter().cloned()).collect();
-                write(&folder.join("index.html"), &index(&pages, best))
+                write(&folder.join("index.html"), index(&pages, best))
             }
             (Some(_), _) => Ok(()),
             (None, Some(path)) => write(path, &output),
