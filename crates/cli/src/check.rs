@@ -213,7 +213,7 @@ fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Res
     if extension == "html" {
         let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
         let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
-        write(&folder.join(INDEX), &index.page())?;
+        write(&folder.join(INDEX), index.page())?;
     }
     Ok(())
 }

@@ -121,12 +121,9 @@ fn a_class_of_attackers_ends_with_all_grades() {
         assert!(!all.contains('\u{202e}') && !all.contains("\\u001b"));
         for grade in &grades {
             let name = grade["submission"].as_str().unwrap();
-            if let Some(name) = name.strip_prefix("class/good-") {
+            if name.starts_with("class/good-") {
                 assert_eq!(grade["score"], 4.0, "{name}: {grade:#}");
-            } else if !["漢", "--out=out"]
-                .iter()
-                .any(|name| grade["submission"].as_str().unwrap().contains(name))
-            {
+            } else if !["漢", "--out=out", "same-rows"].iter().any(|known| name.contains(known)) {
                 assert!(grade["score"].as_f64().unwrap() <= 2.0, "{grade:#}");
             }
         }

@@ -8,6 +8,9 @@ use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
 use photon_mapping::photon_list::PhotonRecord;
 
+/// So many rows are summed at a time.
+const PIECE: usize = 65_536;
+
 /// Whether both lists have the same bits.
 pub fn has_same_bits(a: &PhotonList, b: &PhotonList) -> bool {
     a.columns == b.columns
@@ -32,7 +35,9 @@ pub fn has_same_rows(a: &PhotonList, b: &PhotonList) -> bool {
     };
     let sum = |list: &PhotonList| {
         let add = |a: [u64; 2], b: [u64; 2]| [a[0].wrapping_add(b[0]), a[1].wrapping_add(b[1])];
-        list.records.par_iter().map(hashes).reduce(|| [0; 2], add)
+        let of_piece = |piece: &[PhotonRecord]| piece.iter().map(hashes).fold([0; 2], add);
+        let pieces: Vec<_> = list.records.par_chunks(PIECE).map(of_piece).collect();
+        pieces.into_iter().fold([0; 2], add)
     };
     a.records.len() == b.records.len() && sum(a) == sum(b)
 }

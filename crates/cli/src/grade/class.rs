@@ -116,7 +116,7 @@ impl Class<'_> {
         if self.format == FormatName::Html
             && let Some(folder) = &self.folder
         {
-            let written = write(&folder.join(&self.files[at]), &std::mem::take(&mut kept.output));
+            let written = write(&folder.join(&self.files[at]), std::mem::take(&mut kept.output));
             kept.failed(written);
         }
         self.write_results(at, &mut kept);
@@ -163,7 +163,7 @@ impl Class<'_> {
                 let absent = self.students.absent();
                 let made_by = made_by(self.students.is_anonymous());
                 let index = Index { pages, absent, best, made_by };
-                write(&folder.join(INDEX), &index.page())
+                write(&folder.join(INDEX), index.page())
             }
             (Some(_), _) => Ok(()),
             (None, Some(path)) => write(path, &output),
