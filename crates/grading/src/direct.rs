@@ -2,19 +2,12 @@
 
 use super::facts::straight_from_the_light;
 use super::judge_list::Expectations;
+use super::limits::{APART, FEWEST_ON_FACET, LEFT_OF_DIRECT, PLAINLY};
 use super::observation::Observation;
 use super::signature::{Signature, Signatures, classes};
 use super::text::rounded;
 use super::verdict::{Finding, Weight};
 use variants::variation::{Emission, Variation};
-
-/// So many standard deviations apart are the counts with such photons and without, at least, before
-/// the counts decide: each half is far out in either tail.
-const APART: f64 = 8.0;
-/// A facet has so many times the share that it has under any mistake but this one, before it tells.
-const PLAINLY: f64 = 5.0;
-/// On so few photons, it does not.
-const FEWEST: f64 = 50.0;
 
 /// Whether so many photons straight from the light as the directions say are ruled out by the
 /// counts, which fit `emitted` emitted: straight from the light come far more to the tops of the
@@ -63,7 +56,7 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
     let indirect: Vec<_> = fair.iter().chain(indirect).map(|it| &it.signature).collect();
     (0..places.facets.len()).find_map(|class| {
         let most = indirect.iter().map(|signature| share(signature, class)).fold(0.0, f64::max);
-        let is_plain = counts[class] > (PLAINLY * most * all).max(FEWEST);
+        let is_plain = counts[class] > (PLAINLY * most * all).max(FEWEST_ON_FACET);
         (is_plain && has_all_direct(&counts, class, expectations)).then(|| Finding {
             weight: Weight::Grave,
             ..straight_from_the_light(
@@ -78,9 +71,6 @@ pub fn shows_direct(observation: &Observation, expectations: &Expectations) -> O
         })
     })
 }
-
-/// Of the photons that come straight from the light, this part at least is left on every facet.
-const LEFT_OF_DIRECT: f64 = 0.7;
 
 /// Whether every facet has as many photons as come to it straight from the light, where all on
 /// `class` do.

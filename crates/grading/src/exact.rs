@@ -1,7 +1,7 @@
 //! The exact comparison, for lists that follow the reference's streams.
 
 use super::submission::Settings;
-use super::verdict::{Finding, Weight};
+use super::verdict::Finding;
 use compare::report::{Outcome, Report, compare, scene_size};
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
@@ -95,16 +95,13 @@ fn finding_of(report: &Report) -> Finding {
         }
     };
     let section = report.first_divergence.as_ref().and_then(|divergence| divergence.section);
-    let passed = report.outcome != Outcome::Different;
-    Finding {
-        check: "exact comparison",
-        section: section.map(|section| section.title()),
-        expected: "the reference's photons, whose random numbers the list follows".to_owned(),
+    let finding = Finding::new(
+        "exact comparison",
+        "the reference's photons, whose random numbers the list follows",
         found,
-        p_value: None,
-        passed,
-        // What it shows of positions, the other checks judge; what they let pass may be fair.
-        weight: Weight::Remark,
-        advice: if passed { "" } else { "'photon-mapping compare' tells more." }.into(),
-    }
+        "'photon-mapping compare' tells more.",
+    );
+    // What it shows of positions, the other checks judge; what they let pass may be fair.
+    let finding = finding.passed_if(report.outcome != Outcome::Different);
+    Finding { section: section.map(|section| section.title()), ..finding }
 }

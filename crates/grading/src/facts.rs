@@ -1,8 +1,9 @@
 //! What a list shows without statistics: positions that cannot be, and what costs nothing.
 
-use std::borrow::Cow;
-
-use super::limits::SIGNIFICANCE;
+use super::limits::{
+    FEW_EMITTED, LEAST_EMITTED, MOST_ASTRAY, MOST_GAPS, MOST_IDENTICAL, MOST_REPEATED,
+    MOST_STRAIGHT, SIGNIFICANCE,
+};
 use super::observation::{Observation, ToLight};
 use super::places::Places;
 use super::text::rounded;
@@ -10,43 +11,16 @@ use super::verdict::{Finding, Weight};
 use compare::numbers::thousands;
 use variants::section::Section;
 
-/// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
-const MOST_REPEATED: f64 = 0.01;
-/// Photons at the same place to the last bit are no matter of where rays start: of 7 million
-/// photons emitted from all fair offsets, none was, and by chance, with six digits, it is one of
-/// ten million photons. A thousandth is left to programs that round more than the reference.
-const MOST_IDENTICAL: f64 = 1e-3;
-/// The part of scattered photons that come from where the light stands, within a thousandth of a
-/// radian: none of 500,896, since it is one in a million by the solid angle.
-const MOST_STRAIGHT: f64 = 1e-4;
-/// A stray photon or two is left to rounding.
-const MOST_ASTRAY: f64 = 5e-4;
-/// Of a column that numbers paths, fewer records than this lack the one before.
-const MOST_GAPS: f64 = 0.5;
-/// A list of photons without a count is shorter than what the handout asks for when it fits fewer
-/// photons emitted than this; with fewer than the second, what is stored is a dozen photons, which
-/// tell nothing.
-pub const FEW_EMITTED: f64 = 5000.0;
-const LEAST_EMITTED: f64 = 250.0;
-
 /// What can be said without statistics.
 pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
     let counts = &observation.counts;
     let records = observation.records as f64;
     let finite = records - counts.not_finite;
-    let transformation = Some(Section::HemisphereRayTransformation.title());
-    let storage = Some(Section::PhotonStorage.title());
-    let fact =
-        |check, section, expected: &str, found, passed, weight, advice: &'static str| Finding {
-            check,
-            section,
-            expected: expected.to_owned(),
-            found,
-            p_value: None,
-            passed,
-            weight,
-            advice: if passed { Cow::Borrowed("") } else { advice.into() },
-        };
+    let transformation = Section::HemisphereRayTransformation;
+    let storage = Section::PhotonStorage;
+    let fact = |check, section: Section, expected: &str, found, passed, weight, advice| {
+        Finding::new(check, expected, found, advice).of(section).weighing(weight).passed_if(passed)
+    };
     let of_all = |part: f64, all: f64| format!("{} of {}", rounded(part), rounded(all));
     let (repeated, on_facets) = (observation.repeated, counts.on_surfaces());
     let surfaces = places.surfaces.len();
@@ -90,7 +64,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
         ),
         fact(
             "same place",
-            if paths_come_again { Some(Section::PhotonEmission.title()) } else { transformation },
+            if paths_come_again { Section::PhotonEmission } else { transformation },
             "hardly any two photons lie at the same place",
             format!("{} photons are {exactly}where another one is", of_all(same, on_facets)),
             !is_repeated && !is_identical,
@@ -174,43 +148,34 @@ pub fn enough(
     is_fair: bool,
 ) -> Finding {
     let passed = emitted.is_some() || fitted >= FEW_EMITTED;
-    Finding {
-        check: "enough photons",
-        section: Some(Section::PhotonStorage.title()),
-        expected: format!("the photons of at least {} emitted", rounded(FEW_EMITTED)),
-        found: match (emitted, is_fair) {
-            (None, true) => {
-                let stored = thousands(observation.records);
-                format!("{stored} photons, of about {} emitted", rounded(fitted))
-            }
-            _ => format!("{} photons", thousands(observation.records)),
-        },
-        p_value: None,
-        passed,
-        weight: if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark },
-        advice: if passed {
-            "".into()
-        } else {
-            "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
-             emitted fewer, grade with --emitted."
-                .into()
-        },
-    }
+    let found = match (emitted, is_fair) {
+        (None, true) => {
+            let stored = thousands(observation.records);
+            format!("{stored} photons, of about {} emitted", rounded(fitted))
+        }
+        _ => format!("{} photons", thousands(observation.records)),
+    };
+    let finding = Finding::new(
+        "enough photons",
+        format!("the photons of at least {} emitted", rounded(FEW_EMITTED)),
+        found,
+        "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
+         emitted fewer, grade with --emitted.",
+    );
+    let weight = if fitted < LEAST_EMITTED { Weight::Fault } else { Weight::Remark };
+    finding.of(Section::PhotonStorage).weighing(weight).passed_if(passed)
 }
 
 /// The check of photons that come straight from the light.
 pub fn straight_from_the_light(found: String, passed: bool) -> Finding {
-    Finding {
-        check: "indirect only",
-        section: Some(Section::PhotonStorage.title()),
-        expected: "photons that have bounced, not those straight from the light".to_owned(),
+    let finding = Finding::new(
+        "indirect only",
+        "photons that have bounced, not those straight from the light",
         found,
-        p_value: None,
-        passed,
-        weight: if passed { Weight::Remark } else { Weight::Grave },
-        advice: if passed { "" } else { "Do not store a photon while the size of 'path' is 1." }
-            .into(),
-    }
+        "Do not store a photon while the size of 'path' is 1.",
+    );
+    let weight = if passed { Weight::Remark } else { Weight::Grave };
+    finding.of(Section::PhotonStorage).weighing(weight).passed_if(passed)
 }
 
 /// What costs nothing, since the handout says that positions are sufficient. `emitted` is how many
@@ -221,15 +186,8 @@ pub fn remarks(
     emitted: Option<f64>,
     is_ruled_out: bool,
 ) -> Vec<Finding> {
-    let remark = |check, expected: &str, found: String, passed, advice: &'static str| Finding {
-        check,
-        section: Some(Section::PhotonStorage.title()),
-        expected: expected.to_owned(),
-        found,
-        p_value: None,
-        passed,
-        weight: Weight::Remark,
-        advice: if passed { "".into() } else { advice.into() },
+    let remark = |check, expected: &str, found: String, passed, advice| {
+        Finding::new(check, expected, found, advice).of(Section::PhotonStorage).passed_if(passed)
     };
     let mut findings = Vec::new();
     if observation.has_odd_intensity {

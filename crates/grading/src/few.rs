@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::limits::FEW_PHOTONS;
+use super::limits::{FEW_PHOTONS, WORTH};
 use super::places::Places;
 use super::statistics::corrected;
 use variants::hypotheses::Hypothesis;
@@ -14,10 +14,6 @@ const EMITTED: u64 = 400_000;
 /// Their seed, and how many are traced at once.
 const SEED: u64 = 0x9_2020;
 const PIECE: u64 = 1 << 16;
-
-/// Counts that are fewer standard deviations from their mean than this, as of photons that come on
-/// their own, are not worth a test: of 26, one is as far by chance.
-const WORTH: f64 = 2.5;
 
 /// Photons that one path stores on a class, and in all.
 type Stored = (usize, usize);

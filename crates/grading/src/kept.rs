@@ -19,33 +19,38 @@ const PIECE: u64 = 1 << 16;
 const WAVE: usize = 256;
 /// The seed of the signatures. Submissions that follow our streams have another.
 const SEED: u64 = 0x9_2019;
+/// What chance does to a signature seems to be the misreading's doing, and hides what is: with
+/// 4,000,000 photons, 1.9 standard deviations of a list of 200,000. These misreadings are hard to
+/// see in such a list.
+const WEAK: [&str; 4] = ["numbers-again", "half-normalised", "half-directions", "polar-directions"];
+
 /// With how many photons signatures are measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
     /// For the reference and the letter of the handout.
-    main: u64,
+    pub(crate) main: u64,
     /// For the other fair readings.
-    fair: u64,
-    /// For what is not fair.
-    fault: u64,
+    pub(crate) fair: u64,
+    /// For misreadings that take little time.
+    pub(crate) fast: u64,
+    /// For those of [`WEAK`].
+    pub(crate) weak: u64,
+    /// For all others.
+    pub(crate) other: u64,
 }
 
 impl Effort {
-    /// In lists.
-    pub(crate) const OF_LISTS: Self =
-        Self { main: 100_000_000, fair: 30_000_000, fault: 4_000_000 };
-    /// In pictures: with these, a signature is known better than the leeway that a density has.
-    pub(crate) const OF_PICTURES: Self =
-        Self { main: 60_000_000, fair: 12_000_000, ..Self::OF_LISTS };
-
     /// With how many photons `hypothesis` is measured.
     pub(crate) fn photons(&self, hypothesis: &Hypothesis) -> u64 {
-        let reading = hypothesis.variation.reading;
-        let is_main = [Reading::REFERENCE, Reading::LETTER_OF_THE_HANDOUT].contains(&reading);
-        match hypothesis.id {
-            FAIR if is_main => self.main,
+        let Hypothesis { id, variation, misreading, .. } = hypothesis;
+        let main = [Reading::REFERENCE, Reading::LETTER_OF_THE_HANDOUT];
+        match *id {
+            FAIR if main.contains(&variation.reading) => self.main,
             FAIR => self.fair,
-            _ => self.fault,
+            _ if misreading.is_none() => self.other,
+            _ if variation.is_fast() => self.fast,
+            id if WEAK.contains(&id) => self.weak,
+            _ => self.other,
         }
     }
 }
@@ -102,14 +107,18 @@ impl<S> Default for KeptSignatures<S> {
 }
 
 impl<S: Send> KeptSignatures<S> {
-    /// Measures with `measure` what is missing of `hypotheses`.
+    /// Measures with `measure` what is missing of `hypotheses`, or was measured with fewer photons:
+    /// `emitted` tells with how many.
     pub(crate) fn measure_missing(
         &mut self,
         hypotheses: &Hypotheses,
         effort: Effort,
+        emitted: impl Fn(&S) -> f64,
         measure: impl Fn(&Hypothesis, u64) -> S + Sync,
     ) {
-        let missing = |it: &&Hypothesis| !self.of.contains_key(&it.key());
+        let missing = |it: &&Hypothesis| {
+            self.of.get(&it.key()).is_none_or(|kept| emitted(kept) < effort.photons(it) as f64)
+        };
         let missing: Vec<_> = hypotheses.iter().flatten().filter(missing).collect();
         let measured: Vec<_> = (missing.into_par_iter())
             .map(|it| (it.key(), measure(it, effort.photons(it))))

@@ -78,3 +78,112 @@ pub(crate) const ALL_COPIED: f64 = 0.95;
 /// Of the records, at least this part lies on surfaces where their number is held against the
 /// intensity.
 pub(crate) const MOSTLY: f64 = 0.5;
+
+// Single photons.
+
+/// Self-hits of a correct submission, whose rays may start 1e-5 along their direction, are fewer.
+pub(crate) const MOST_REPEATED: f64 = 0.01;
+/// Photons at the same place to the last bit are no matter of where rays start: of 7 million
+/// photons emitted from all fair offsets, none was, and by chance, with six digits, it is one of
+/// ten million photons. A thousandth is left to programs that round more than the reference.
+pub(crate) const MOST_IDENTICAL: f64 = 1e-3;
+/// The part of scattered photons that come from where the light stands, within a thousandth of a
+/// radian: none of 500,896, since it is one in a million by the solid angle.
+pub(crate) const MOST_STRAIGHT: f64 = 1e-4;
+/// A stray photon or two is left to rounding.
+pub(crate) const MOST_ASTRAY: f64 = 5e-4;
+/// Of a column that numbers paths, fewer records than this lack the one before.
+pub(crate) const MOST_GAPS: f64 = 0.5;
+/// A list of photons without a count is shorter than what the handout asks for when it fits fewer
+/// photons emitted than this; with fewer than the second, what is stored is a dozen photons, which
+/// tell nothing.
+pub(crate) const FEW_EMITTED: f64 = 5000.0;
+pub(crate) const LEAST_EMITTED: f64 = 250.0;
+
+// Photons at the same place.
+
+/// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
+pub(crate) const SAME_PLACE: f64 = 2e-5;
+/// How many neighbours are looked at before a photon counts as alone.
+pub(crate) const MOST_NEIGHBOURS: usize = 256;
+/// Rounding brings a hit no farther than this from the hit it repeats: four units in the last place
+/// of an f32 between 1 and 2. Rays that start 1e-5 above a surface and go below it come back
+/// farther away.
+pub(crate) const BY_ROUNDING: f64 = 1e-6;
+
+// Crowds.
+
+/// Edges of the cubes, in world units.
+pub(crate) const EDGES: [f64; 5] = [2e-5, 2e-4, 2e-3, 2e-2, 0.1];
+/// Of all photons, so many at most lie on a unit of area: three times what the reference has where
+/// they are densest.
+pub(crate) const DENSEST: f64 = 1.0;
+/// The largest area of facets in a cube of edge 1: three faces that meet.
+pub(crate) const AREA_IN_CUBE: f64 = 3.0;
+/// This part of the photons is left to self-hits and to paths along edges.
+pub(crate) const LEFT_TO_SELF_HITS: f64 = 0.03;
+/// The weights of the supermartingales that are tried.
+pub(crate) const WEIGHTS_OF_SHARED: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+/// Counts that are fewer standard deviations from their mean than this, as of photons that come on
+/// their own, are not worth a test: of 26, one is as far by chance.
+pub(crate) const WORTH: f64 = 2.5;
+
+// Photons straight from the light.
+
+/// So many standard deviations apart are the counts with such photons and without, at least, before
+/// the counts decide: each half is far out in either tail.
+pub(crate) const APART: f64 = 8.0;
+/// A facet has so many times the share that it has under any mistake but this one, before it tells.
+pub(crate) const PLAINLY: f64 = 5.0;
+/// On so few photons, it does not.
+pub(crate) const FEWEST_ON_FACET: f64 = 50.0;
+/// Of the photons that come straight from the light, this part at least is left on every facet.
+pub(crate) const LEFT_OF_DIRECT: f64 = 0.7;
+
+// Self-hits.
+
+/// How many standard deviations the places of self-hits must be towards those of first hits: what
+/// is stored twice for another reason is not.
+pub(crate) const FIRST_HITS_SHOW: f64 = 6.0;
+/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first
+/// hits, which are not stored, they make at most so many known. Both are out of reach for rounding,
+/// which brings half of the starts below the surface.
+pub(crate) const LEAST_SCATTERED: f64 = 0.5;
+pub(crate) const MOST_FIRST_HITS: f64 = 0.5;
+/// By which part of itself the number of photons that self-hits leave may be off: its prediction
+/// takes the same loss for all ways to a facet. A roulette with the mean would leave a quarter
+/// fewer.
+pub(crate) const LEEWAY_OF_LOSS: f64 = 0.12;
+
+// Bounces.
+
+/// Hits are counted from 0 or from 1, and the second is the first that is stored: so the first
+/// bounce of a list is 2 at most.
+pub(crate) const LAST_FIRST_BOUNCE: u16 = 2;
+/// By which part of itself the number of long paths may be smaller: beyond the bounces of a
+/// signature, they are taken to end at the same rate.
+pub(crate) const LEEWAY_OF_LONG_PATHS: f64 = 0.15;
+
+// Numbers of photons.
+
+/// No mistake stores more than this part of the photons emitted, unless it stores some twice: with
+/// those straight from the light, it is 0.29.
+pub(crate) const MOST_STORED: f64 = 1.0 / 3.0;
+
+// Pictures.
+
+/// Another way to do it right is tried for what is as rare as this.
+pub(crate) const RARE: f64 = 0.01;
+/// A few odd pixels are no dots.
+pub(crate) const FEWEST_RED: f64 = 10.0;
+/// When no more than this part of the pixels is left, all are red.
+pub(crate) const ALL_RED: f64 = 1e-3;
+/// With so many photons that less than this part of the pixels is expected to be left, nothing can
+/// be told.
+pub(crate) const SATURATED: f64 = 0.05;
+/// By which part of itself a number of photons is not known from a picture.
+pub(crate) const NUMBER_LEEWAY: f64 = 0.06;
+/// With fewer groups of cells than this, anything fits that has this many numbers to choose.
+pub(crate) const FEWEST_GROUPS: usize = 4;
+/// But so few red pixels have no more groups.
+pub(crate) const FEW_RED: f64 = 1000.0;

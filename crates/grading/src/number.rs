@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::limits::{LEAST_LIKELY_SLIP, SIGNIFICANCE};
+use super::limits::{LEAST_LIKELY_SLIP, MOST_STORED, SIGNIFICANCE};
 use super::list::OfList;
 use super::naming::Explanation;
 use super::text::rounded;
@@ -37,10 +37,6 @@ const SLIPS: [Slip; 9] = [
     Slip { name: "1/(4 pi)", factor: 0.25 / PI, power: 1.0 },
     Slip { name: "1/N", factor: 1.0, power: 2.0 },
 ];
-
-/// No mistake stores more than this part of the photons emitted, unless it stores some twice: with
-/// those straight from the light, it is 0.29.
-const MOST_STORED: f64 = 1.0 / 3.0;
 
 impl Slip {
     /// How many photons were emitted, where the intensity has this factor and says `number`.
@@ -108,26 +104,20 @@ pub(super) fn other_number(list: &OfList, number: f64, p_value: f64) -> Option<O
 
 /// The remark that the intensity is wrong.
 fn remark(found: String, p_value: f64) -> Finding {
-    Finding {
-        weight: Weight::Remark,
-        advice: "Set 'intensity' to lightIntensity as it is.".into(),
-        ..contradiction(found, p_value)
-    }
+    let advice = "Set 'intensity' to lightIntensity as it is.";
+    Finding { advice: advice.into(), ..contradiction(found, p_value).weighing(Weight::Remark) }
 }
 
 /// The fault that the intensity says another number than the photons do.
 fn contradiction(found: String, p_value: f64) -> Finding {
-    Finding {
-        check: "number by intensity",
-        section: Some(Section::PhotonStorage.title()),
-        expected: "photons for as many emitted as the intensity says".to_owned(),
+    let finding = Finding::new(
+        "number by intensity",
+        "photons for as many emitted as the intensity says",
         found,
-        p_value: Some(p_value),
-        passed: false,
-        weight: Weight::Fault,
-        advice: "Photons are lost or stored too often, all over the scene, or the intensity is \
-                 wrong, which is to be lightIntensity as it is. The list cannot tell which: grade \
-                 with --emitted, and the intensity costs nothing."
-            .into(),
-    }
+        "Photons are lost or stored too often, all over the scene, or the intensity is wrong, \
+         which is to be lightIntensity as it is. The list cannot tell which: grade with --emitted, \
+         and the intensity costs nothing.",
+    );
+    let finding = finding.of(Section::PhotonStorage).weighing(Weight::Fault);
+    Finding { p_value: Some(p_value), ..finding }
 }

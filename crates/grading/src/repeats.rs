@@ -1,17 +1,9 @@
 //! Photons that lie where another one does.
 
+use super::limits::{BY_ROUNDING, MOST_NEIGHBOURS, SAME_PLACE};
 use super::places::Place;
 use glam::DVec3;
 use photon_mapping::photon_list::PhotonRecord;
-
-/// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
-const SAME_PLACE: f64 = 2e-5;
-/// How many neighbours are looked at before a photon counts as alone.
-const MOST_NEIGHBOURS: usize = 256;
-/// Rounding brings a hit no farther than this from the hit it repeats: four units in the last place
-/// of an f32 between 1 and 2. Rays that start 1e-5 above a surface and go below it come back
-/// farther away.
-const BY_ROUNDING: f64 = 1e-6;
 
 /// Positions that come more than once, to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,22 +2,10 @@
 //! lie.
 
 use super::judge_list::Expectations;
+use super::limits::{FIRST_HITS_SHOW, LEAST_SCATTERED, LEEWAY_OF_LOSS, MOST_FIRST_HITS};
 use super::observation::Observation;
 use super::signature::classes;
 use variants::variation::{FACETS, survival_of_facets};
-
-/// How many standard deviations the places of self-hits must be towards those of first hits: what
-/// is stored twice for another reason is not.
-const FIRST_HITS_SHOW: f64 = 6.0;
-/// Of the photons that a hit should scatter, self-hits leave at least so many; and of the first
-/// hits, which are not stored, they make at most so many known. Both are out of reach for rounding,
-/// which brings half of the starts below the surface.
-const LEAST_SCATTERED: f64 = 0.5;
-const MOST_FIRST_HITS: f64 = 0.5;
-/// By which part of itself the number of photons that self-hits leave may be off: its prediction
-/// takes the same loss for all ways to a facet. A roulette with the mean would leave a quarter
-/// fewer.
-const LEEWAY_OF_LOSS: f64 = 0.12;
 
 /// Whether photons at the same place are there because rays start below the surface: by rounding,
 /// or since they come from behind it. Directions below the surface lead back to it from the front,

@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::kept::{Known, SignatureTable, Sums, add_matrix, sum};
+use super::kept::{Effort, Known, SignatureTable, Sums, add_matrix, sum};
 use super::observation::BOUNCES;
 use super::places::Places;
 use super::signature::{Signature, Signatures, hypotheses};
 use super::statistics::Matrix;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::hypotheses::{FAIR, Hypothesis};
+use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures without one are
 /// right.
@@ -23,10 +23,14 @@ pub const MANY_BOUNCES: i32 = 20;
 /// Bounces 0 to 19.
 const COUNTED: usize = MANY_BOUNCES as usize;
 
-/// With how many photons the reference is counted, other fair readings, and misreadings.
-const OF_REFERENCE: u64 = 40_000_000;
-const OF_FAIR: u64 = 10_000_000;
-const OF_MISREADING: u64 = 1_000_000;
+/// With how many photons they are counted.
+const EFFORT: Effort = Effort {
+    main: 40_000_000,
+    fair: 10_000_000,
+    fast: 10_000_000,
+    weak: 4_000_000,
+    other: 1_000_000,
+};
 
 /// What one hypothesis leaves, bounce by bounce.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -86,15 +90,11 @@ impl ShortPaths {
     pub fn complete(&mut self, places: &Places) {
         let [fair, misreadings, _] = hypotheses();
         for hypothesis in fair.iter().chain(&misreadings) {
-            let (key, is_first) = (hypothesis.key(), self.pairs.is_empty());
-            if self.of.contains_key(&key) {
+            let (key, emitted) = (hypothesis.key(), EFFORT.photons(hypothesis));
+            let is_counted = |kept: &ByBounce| kept.emitted >= emitted as f64;
+            if hypothesis.id == BOUNCE_OFF_BY_ONE || self.of.get(&key).is_some_and(is_counted) {
                 continue;
             }
-            let emitted = match hypothesis.id {
-                FAIR if is_first => OF_REFERENCE,
-                FAIR => OF_FAIR,
-                _ => OF_MISREADING,
-            };
             let classes = places.facets.len() + 2;
             let counted = || Counts {
                 places,
@@ -102,7 +102,7 @@ impl ShortPaths {
                 pairs: vec![vec![vec![0.0; classes]; classes]; COUNTED],
             };
             let Counts { counts, pairs, .. } = sum(hypothesis, emitted, MANY_BOUNCES - 1, counted);
-            if is_first {
+            if hypothesis == &fair[0] {
                 self.pairs = pairs;
             }
             self.of.insert(key, ByBounce { emitted: emitted as f64, counts });
@@ -119,17 +119,19 @@ impl ShortPaths {
         classes.clone().map(|a| classes.clone().map(|b| part(a, b)).collect()).collect()
     }
 
-    /// The signature of `hypothesis` where `max_bounces` are allowed, of which `long` is the one
-    /// without a limit, and `part` of its pairs are left.
+    /// The signature of a hypothesis where `max_bounces` are allowed, of which the one without a
+    /// limit is known, and `part` of its pairs are left.
     fn signature(
         &self,
-        hypothesis: &Hypothesis,
-        long: &Signature,
+        Known { hypothesis, signature: long }: &Known<Signature>,
+        reference: &Hypothesis,
         max_bounces: usize,
         part: &Matrix,
         places: &Places,
     ) -> Signature {
-        let ByBounce { emitted, counts } = &self.of[&hypothesis.key()];
+        // A bounce fewer is the reference's last one.
+        let counted = if hypothesis.id == BOUNCE_OFF_BY_ONE { reference } else { hypothesis };
+        let ByBounce { emitted, counts } = &self.of[&counted.key()];
         let allowed = max_bounces.saturating_sub(hypothesis.variation.fewer_bounces as usize);
         let means = |counts: &[f64]| counts.iter().map(|count| count / emitted).collect::<Vec<_>>();
         let classes = |counts: &[f64]| {
@@ -173,7 +175,7 @@ impl ShortPaths {
         let allowed = max_bounces as usize;
         let part = self.part_of_pairs(allowed);
         let of = |known: &Known<Signature>| Known {
-            signature: self.signature(&known.hypothesis, &known.signature, allowed, &part, places),
+            signature: self.signature(known, &long.fair[0].hypothesis, allowed, &part, places),
             hypothesis: known.hypothesis.clone(),
         };
         let fair: Vec<_> = long.fair.iter().map(of).collect();

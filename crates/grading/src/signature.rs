@@ -15,6 +15,15 @@ use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings};
 use variants::pairs::unnamed;
 
+/// With how many photons signatures of lists are measured.
+const EFFORT: Effort = Effort {
+    main: 100_000_000,
+    fair: 30_000_000,
+    fast: 30_000_000,
+    weak: 12_000_000,
+    other: 4_000_000,
+};
+
 /// Where one hypothesis leaves its photons, for each photon emitted. A class is a facet, or all of
 /// [`super::places::Place::Corner`], or all of [`super::places::Place::Footprint`], in this order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,11 +61,12 @@ impl KeptSignatures<Signature> {
         let measure = |it: &Hypothesis, photons| measure(it, places, photons, MAX_PHOTON_BOUNCES);
         let reference = &fair_readings()[0];
         if self.correlation.is_empty() {
-            let (signature, of_cells) = measure(reference, Effort::OF_LISTS.photons(reference));
+            let (signature, of_cells) = measure(reference, EFFORT.photons(reference));
             self.correlation = correlate(&of_cells);
             self.of.insert(reference.key(), signature);
         }
-        self.measure_missing(&hypotheses(), Effort::OF_LISTS, |it, photons| measure(it, photons).0);
+        let emitted = |kept: &Signature| kept.emitted;
+        self.measure_missing(&hypotheses(), EFFORT, emitted, |it, photons| measure(it, photons).0);
     }
 }
 

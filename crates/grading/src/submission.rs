@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::axes;
 use super::exact::exact_comparison;
-use super::facts::FEW_EMITTED;
 use super::judge_list::{Expectations, Judgement, judge};
+use super::limits::FEW_EMITTED;
 use super::naming::Explanation;
 use super::observation::observe;
 use super::own;
@@ -20,6 +20,7 @@ use super::verdict::{Finding, Grade, Verdict, Weight};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
+use variants::section::Section;
 
 /// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with
 /// ten million photons and every mistake at once has fewer than this.
@@ -219,37 +220,22 @@ fn grade_picture(
         let found = if judgement.has_dots { "dots" } else { "no dot" };
         return without_bounces(submission, settings, None, found, !judgement.has_dots);
     }
-    let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
-    let verdict = match faults().next() {
-        None => Verdict::Correct,
-        Some(_) if judgement.has_dots => Verdict::Incorrect,
-        Some(_) => Verdict::NoDots,
+    let verdict = match judgement.findings.iter().any(Finding::is_fault) {
+        false => Verdict::Correct,
+        true if judgement.has_dots => Verdict::Incorrect,
+        true => Verdict::NoDots,
     };
-    let misreading = judgement.explanation.as_ref();
-    let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
-    let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
-        && !stores_direct(&judgement.explanation, &judgement.pair);
-    let grade = Grade {
-        submission: submission.name.clone(),
-        emitted: settings.emitted,
-        stored: None,
-        score: settings.policy.score(verdict, misreading_id, is_plausible),
-        verdict,
-        misreading: misreading_id,
-        misreading_confidence: misreading.map(|explanation| explanation.confidence),
-        misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
-        findings: judgement.findings.clone(),
-        for_course: match verdict {
-            Verdict::Correct => own_picture(picture, settings, expectations).into_iter().collect(),
-            _ => Vec::new(),
-        },
+    let because = Because {
+        explanation: judgement.explanation.as_ref(),
+        pair: judgement.pair.as_ref(),
+        findings: judgement.findings,
+        emitted: None,
     };
-    Graded::new(grade)
-}
-
-/// Whether photons straight from the light are part of what explains a submission.
-fn stores_direct(alone: &Option<Explanation>, pair: &Option<Explanation>) -> bool {
-    alone.iter().chain(pair).any(|explanation| explanation.hypothesis.variation.stores_direct())
+    let mut graded = because.graded(submission, settings, verdict, None);
+    if verdict == Verdict::Correct {
+        graded.grade.for_course.extend(own_picture(picture, settings, expectations));
+    }
+    graded
 }
 
 /// A remark, if the dots of `picture` are not the photons of `list`.
@@ -293,49 +279,57 @@ fn too_few(records: u64) -> Finding {
 
 /// A finding that costs nothing.
 pub fn remark(check: &'static str, expected: &str, found: &str, advice: &'static str) -> Finding {
-    Finding {
-        check,
-        section: None,
-        expected: expected.to_owned(),
-        found: printable(found),
-        p_value: None,
-        passed: false,
-        weight: Weight::Remark,
-        advice: advice.into(),
-    }
+    Finding::new(check, expected, printable(found), advice)
 }
 
 /// The grade of a submission that is none, for `reason`.
 pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) -> Graded {
-    let grade = Grade {
-        submission: submission.name.clone(),
-        emitted: settings.emitted,
-        stored: None,
-        score: settings.policy.score(Verdict::Unreadable, None, false),
-        verdict: Verdict::Unreadable,
-        misreading: None,
-        misreading_confidence: None,
-        misreading_title: None,
-        findings: vec![not_readable(reason)],
-        for_course: Vec::new(),
-    };
-    Graded::new(grade)
+    let because = Because { findings: vec![not_readable(reason)], ..Because::default() };
+    because.graded(submission, settings, Verdict::Unreadable, None)
 }
 
 fn not_readable(reason: &str) -> Finding {
-    Finding {
-        check: "readable",
-        section: None,
-        expected: "a photon list (CSV or PLY, with the columns x, y and z), or a picture"
-            .to_owned(),
-        found: printable(reason),
-        p_value: None,
-        passed: false,
-        weight: Weight::Grave,
-        advice:
-            "Hand in the list that photon_dump.hpp writes, or the PNG picture as the program wrote \
-                 it."
-            .into(),
+    let expected = "a photon list (CSV or PLY, with the columns x, y and z), or a picture";
+    let advice = "Hand in the list that photon_dump.hpp writes, or the PNG picture as the program \
+                  wrote it.";
+    remark("readable", expected, reason, advice).weighing(Weight::Grave)
+}
+
+/// What a verdict is given for.
+#[derive(Default)]
+struct Because<'a> {
+    findings: Vec<Finding>,
+    explanation: Option<&'a Explanation>,
+    pair: Option<&'a Explanation>,
+    emitted: Option<u64>,
+}
+
+impl Because<'_> {
+    fn graded(
+        self,
+        submission: &Submission,
+        settings: &Settings,
+        verdict: Verdict,
+        stored: Option<u64>,
+    ) -> Graded {
+        let Self { findings, explanation, pair, emitted } = self;
+        let misreading = explanation.map(|explanation| explanation.hypothesis.id);
+        let mut explained = explanation.iter().chain(&pair);
+        let stores_direct = explained.any(|it| it.hypothesis.variation.stores_direct());
+        let mut faults = findings.iter().filter(|finding| finding.is_fault());
+        let is_plausible = faults.all(|finding| finding.weight != Weight::Grave) && !stores_direct;
+        Graded::new(Grade {
+            submission: submission.name.clone(),
+            emitted: emitted.or(settings.emitted),
+            stored,
+            score: settings.policy.score(verdict, misreading, is_plausible),
+            verdict,
+            misreading,
+            misreading_confidence: explanation.map(|explanation| explanation.confidence),
+            misreading_title: explanation.map(|explanation| explanation.hypothesis.title.clone()),
+            findings,
+            for_course: Vec::new(),
+        })
     }
 }
 
@@ -375,29 +369,19 @@ pub fn grade_list(
     if is_too_few {
         judgement.findings.push(too_few(observation.records));
     }
-    let misreading = judgement.explanation.as_ref();
-    let faults = || judgement.findings.iter().filter(|finding| finding.is_fault());
-    let verdict = match faults().next() {
-        None if is_too_few => Verdict::Undecided,
-        None => Verdict::Correct,
-        Some(_) => Verdict::Incorrect,
+    let verdict = match judgement.findings.iter().any(Finding::is_fault) {
+        true => Verdict::Incorrect,
+        false if is_too_few => Verdict::Undecided,
+        false => Verdict::Correct,
     };
-    let misreading_id = misreading.map(|explanation| explanation.hypothesis.id);
-    let is_plausible = faults().all(|finding| finding.weight != Weight::Grave)
-        && !stores_direct(&judgement.explanation, &judgement.pair);
-    let grade = Grade {
-        submission: submission.name.clone(),
-        emitted: emitted.map(|emitted| emitted as u64),
-        stored: Some(observation.records),
-        score: settings.policy.score(verdict, misreading_id, is_plausible),
-        verdict,
-        misreading: misreading_id,
-        misreading_confidence: misreading.map(|explanation| explanation.confidence),
-        misreading_title: misreading.map(|explanation| explanation.hypothesis.title.clone()),
+    let because = Because {
+        explanation: judgement.explanation.as_ref(),
+        pair: judgement.pair.as_ref(),
         findings: judgement.findings.clone(),
-        for_course: Vec::new(),
+        emitted: emitted.map(|emitted| emitted as u64),
     };
-    Graded { list: Some((list, judgement)), ..Graded::new(grade) }
+    let graded = because.graded(submission, settings, verdict, Some(observation.records));
+    Graded { list: Some((list, judgement)), ..graded }
 }
 
 /// The grade of a submission with what is `found`, where none may bounce and so none may be stored.
@@ -408,54 +392,28 @@ fn without_bounces(
     found: &str,
     is_right: bool,
 ) -> Graded {
-    let finding = Finding {
-        check: "photons",
-        section: Some("Photon Storage"),
-        expected: "no photon: one is stored only after it has bounced".to_owned(),
-        found: format!("{found}, where no photon may bounce"),
-        p_value: None,
-        passed: is_right,
-        weight: Weight::Fault,
-        advice:
-            "Insert a photon only where the size of 'path' is larger than 1, and trace no further \
-                 than the bounces that are left."
-                .into(),
-    };
+    let finding = Finding::new(
+        "photons",
+        "no photon: one is stored only after it has bounced",
+        format!("{found}, where no photon may bounce"),
+        "Insert a photon only where the size of 'path' is larger than 1, and trace no further than \
+         the bounces that are left.",
+    );
+    let finding = finding.weighing(Weight::Fault).passed_if(is_right).of(Section::PhotonStorage);
     let verdict = if is_right { Verdict::Correct } else { Verdict::Incorrect };
-    let grade = Grade {
-        stored,
-        score: settings.policy.score(verdict, None, false),
-        verdict,
-        findings: vec![finding],
-        ..unreadable(submission, settings, "").grade
-    };
-    Graded::new(grade)
+    let because = Because { findings: vec![finding], ..Because::default() };
+    because.graded(submission, settings, verdict, stored)
 }
 
 fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
-    let finding = Finding {
-        check: "photons",
-        section: Some("Photon Storage"),
-        expected: "photons that have bounced".to_owned(),
-        found: "the list is empty".to_owned(),
-        p_value: None,
-        passed: false,
-        weight: Weight::Fault,
-        advice: "Insert a photon where the size of 'path' is larger than 1; check that 'path' \
-                 grows and that TracePhoton calls itself."
-            .into(),
-    };
-    let grade = Grade {
-        submission: submission.name.clone(),
-        emitted: settings.emitted,
-        stored: Some(0),
-        score: settings.policy.score(Verdict::NoDots, None, false),
-        verdict: Verdict::NoDots,
-        misreading: None,
-        misreading_confidence: None,
-        misreading_title: None,
-        findings: vec![finding],
-        for_course: Vec::new(),
-    };
-    Graded::new(grade)
+    let finding = Finding::new(
+        "photons",
+        "photons that have bounced",
+        "the list is empty",
+        "Insert a photon where the size of 'path' is larger than 1; check that 'path' grows and \
+         that TracePhoton calls itself.",
+    );
+    let finding = finding.weighing(Weight::Fault).of(Section::PhotonStorage);
+    let because = Because { findings: vec![finding], ..Because::default() };
+    because.graded(submission, settings, Verdict::NoDots, Some(0))
 }

@@ -43,21 +43,13 @@ impl Trial {
     ) -> impl Iterator<Item = Finding> + 'a {
         let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
         self.tests.iter().map(move |test| {
-            let passed = test.p_value >= SIGNIFICANCE;
-            Finding {
-                check: test.check,
-                section: misreading.map(|misreading| misreading.section.title()),
-                expected: format!("{} ({reading})", test.expected),
-                found: test.found.clone(),
-                p_value: Some(test.p_value),
-                passed,
-                weight: Weight::Fault,
-                advice: match misreading {
-                    _ if passed => "".into(),
-                    Some(misreading) => misreading.advice.into(),
-                    None => unexplained.clone(),
-                },
-            }
+            let expected = format!("{} ({reading})", test.expected);
+            let finding = Finding::new(test.check, expected, test.found.clone(), "");
+            let advice = misreading
+                .map_or_else(|| unexplained.clone(), |misreading| misreading.advice.into());
+            let section = misreading.map(|misreading| misreading.section.title());
+            let finding = Finding { section, advice, ..finding };
+            finding.weighing(Weight::Fault).by_chance(test.p_value)
         })
     }
 }

@@ -4,6 +4,9 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
+use super::limits::SIGNIFICANCE;
+use variants::section::Section;
+
 /// The verdict on a submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -117,6 +120,45 @@ impl Finding {
     /// Whether it is about a whole section of the handout, whose code was run by itself.
     pub fn is_section(&self) -> bool {
         self.section == Some(self.check)
+    }
+
+    /// A remark: `found` in place of what is `expected`.
+    pub fn new(
+        check: &'static str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+        advice: &'static str,
+    ) -> Self {
+        Self {
+            check,
+            section: None,
+            expected: expected.into(),
+            found: found.into(),
+            p_value: None,
+            passed: false,
+            weight: Weight::Remark,
+            advice: advice.into(),
+        }
+    }
+
+    /// The same of a section of the handout.
+    pub fn of(self, section: Section) -> Self {
+        Self { section: Some(section.title()), ..self }
+    }
+
+    /// The same with another weight.
+    pub fn weighing(self, weight: Weight) -> Self {
+        Self { weight, ..self }
+    }
+
+    /// The same, which is as it should be if it `passed`: then there is nothing to look at.
+    pub fn passed_if(self, passed: bool) -> Self {
+        Self { passed, advice: if passed { "".into() } else { self.advice }, ..self }
+    }
+
+    /// The same of what comes by chance as often as `p_value`: too rarely, or it is as it should be.
+    pub fn by_chance(self, p_value: f64) -> Self {
+        Self { p_value: Some(p_value), ..self.passed_if(p_value >= SIGNIFICANCE) }
     }
 
     /// Whether it speaks against the submission.

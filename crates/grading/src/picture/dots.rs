@@ -5,7 +5,7 @@ use image::RgbImage;
 
 use super::reading::WANTED;
 use super::view::{PIXELS, View};
-use crate::verdict::{Finding, Weight};
+use crate::verdict::Finding;
 
 /// A channel of the direct light may differ by this much: programs round in other ways.
 const ROUNDING: u8 = 1;
@@ -119,16 +119,8 @@ pub fn find_dots<'a>(
 }
 
 fn remark(check: &'static str, expected: &str, found: String) -> Finding {
-    Finding {
-        check,
-        section: None,
-        expected: expected.to_owned(),
-        found,
-        p_value: None,
-        passed: false,
-        weight: Weight::Remark,
-        advice: "The dots are judged all the same; leave this to the framework.".into(),
-    }
+    let advice = "The dots are judged all the same; leave this to the framework.";
+    Finding::new(check, expected, found, advice)
 }
 
 /// Takes the picture of the framework apart: direct light, and dots of any one style.

@@ -5,22 +5,12 @@ use std::borrow::Cow;
 use super::dotted::OfPicture;
 use super::expectations::PictureExpectations;
 use super::view::View;
-use super::words::{self, LEAST_EMITTED};
+use super::words;
 use crate::evidence::Evidence;
-use crate::limits::SIGNIFICANCE;
+use crate::limits::{ALL_RED, FEW_EMITTED, FEWEST_RED, RARE, SATURATED, SIGNIFICANCE};
 use crate::naming::{Explanation, candidates, most_likely};
 use crate::trial::best_trial;
 use crate::verdict::Finding;
-
-/// Another way to do it right is tried for what is as rare as this.
-const RARE: f64 = 0.01;
-/// A few odd pixels are no dots.
-pub(super) const FEWEST_RED: f64 = 10.0;
-/// When no more than this part of the pixels is left, all are red.
-const ALL_RED: f64 = 1e-3;
-/// With so many photons that less than this part of the pixels is expected to be left, nothing can
-/// be told.
-const SATURATED: f64 = 0.05;
 
 /// What the dots of a picture say.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,7 +85,7 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgement {
     let mut trial = best_trial(picture);
     let mut standoff = None;
     let is_off = trial.p_value < RARE && picture.may_be_off_surface(&trial);
-    let is_sparse = picture.emitted.is_none() && trial.emitted < LEAST_EMITTED;
+    let is_sparse = picture.emitted.is_none() && trial.emitted < FEW_EMITTED;
     let off_surface = (is_off || is_sparse).then(|| picture.best_trial_off_surface()).flatten();
     if let Some((off, by)) = off_surface.filter(|(off, _)| is_sparse || off.p_value > trial.p_value)
     {

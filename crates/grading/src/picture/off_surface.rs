@@ -3,18 +3,11 @@
 use super::coverage::{STANDOFFS, coverage};
 use super::dotted::OfPicture;
 use super::expected::means;
-use super::judge::FEWEST_RED;
-use super::words::LEAST_EMITTED;
 use crate::evidence::Evidence;
 use crate::expected::bisect;
-use crate::limits::SIGNIFICANCE;
+use crate::limits::{FEW_EMITTED, FEW_RED, FEWEST_GROUPS, FEWEST_RED, SIGNIFICANCE};
 use crate::trial::{Trial, attempt};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
-
-/// With fewer groups of cells than this, anything fits that has this many numbers to choose.
-const FEWEST_GROUPS: usize = 4;
-/// But so few red pixels have no more groups.
-const SHORT: f64 = 1000.0;
 
 /// The numbers of photons between which it is sought: with fewer or more no picture can be judged.
 const SIZES: [f64; 2] = [10.0, 1e8];
@@ -23,8 +16,8 @@ impl OfPicture<'_> {
     /// The fair reading, of positions that are off their surfaces, and of enough photons, under
     /// which the picture is least strange; with how far off they are.
     pub(super) fn best_trial_off_surface(&self) -> Option<(Trial, f64)> {
-        let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= LEAST_EMITTED;
-        let is_short = self.counts.iter().sum::<f64>() < SHORT;
+        let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= FEW_EMITTED;
+        let is_short = self.counts.iter().sum::<f64>() < FEW_RED;
         let can_fail = |trial: &Trial| is_short || trial.groups >= FEWEST_GROUPS;
         let attempts = (0..self.table().fair.len()).flat_map(|reading| {
             let attempt = move |standoff| {

@@ -22,6 +22,15 @@ const SAME_PLACE: f32 = 1e-4;
 /// rounding: on facets that are at right angles to an axis, and on the others.
 const SELF_HITS: ([f32; 3], [f32; 3]) = ([0.1, 0.25, 0.4], [0.3, 0.45, 0.6]);
 
+/// With how many photons: then a signature is known better than the leeway that a density has.
+const EFFORT: Effort = Effort {
+    main: 60_000_000,
+    fair: 12_000_000,
+    fast: 4_000_000,
+    weak: 4_000_000,
+    other: 4_000_000,
+};
+
 /// How often the photons of one hypothesis turn pixels red.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureSignature {
@@ -51,7 +60,8 @@ impl KeptSignatures<PictureSignature> {
     /// Measures what is missing.
     pub fn complete_pictures(&mut self, places: &Places, view: &View) {
         let measure = |it: &Hypothesis, photons| measure(it, view, photons, MAX_PHOTON_BOUNCES);
-        self.measure_missing(&hypotheses(places), Effort::OF_PICTURES, measure);
+        let emitted = |kept: &PictureSignature| kept.emitted;
+        self.measure_missing(&hypotheses(places), EFFORT, emitted, measure);
     }
 }
 

@@ -1,17 +1,11 @@
 //! What is said of a picture.
 
+use crate::limits::{FEW_EMITTED, NUMBER_LEEWAY};
 use crate::text::rounded;
 use crate::verdict::{Finding, Weight};
 use compare::numbers::thousands;
 use photon_mapping::assignment8::PHOTON_COUNT;
 use variants::section::Section;
-
-/// The dots of a picture are too few for what the handout asks for when they fit fewer photons
-/// emitted than this.
-pub(super) const LEAST_EMITTED: f64 = 5000.0;
-
-/// By which part of itself a number of photons is not known from a picture.
-const NUMBER_LEEWAY: f64 = 0.06;
 
 fn storage(
     check: &'static str,
@@ -21,16 +15,8 @@ fn storage(
     weight: Weight,
     advice: &'static str,
 ) -> Finding {
-    Finding {
-        check,
-        section: Some(Section::PhotonStorage.title()),
-        expected: expected.to_owned(),
-        found,
-        p_value: None,
-        passed,
-        weight,
-        advice: if passed { "".into() } else { advice.into() },
-    }
+    let finding = Finding::new(check, expected, found, advice);
+    finding.of(Section::PhotonStorage).weighing(weight).passed_if(passed)
 }
 
 /// There are no dots on the surfaces.
@@ -96,13 +82,13 @@ pub(super) fn all_red() -> Finding {
 pub(super) fn enough(found: f64, fitted: f64, are_fair: bool) -> Finding {
     storage(
         "enough photons",
-        &format!("the dots of at least {} photons emitted", rounded(LEAST_EMITTED)),
+        &format!("the dots of at least {} photons emitted", rounded(FEW_EMITTED)),
         if are_fair {
             format!("{} red pixels, of about {} photons emitted", rounded(found), rounded(fitted))
         } else {
             format!("{} red pixels", rounded(found))
         },
-        fitted >= LEAST_EMITTED,
+        fitted >= FEW_EMITTED,
         Weight::Fault,
         "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
          emitted fewer, grade with --emitted.",
