@@ -128,6 +128,7 @@ pub fn heading(grade: &Grade, best: f64) -> String {
         let title = grade.misreading_title.as_deref().unwrap_or_default();
         let sure = 100.0 * confidence;
         text += &format!("  misreading: {misreading} ({sure:.1} % sure): {title}\n");
+        text += &format!("  to see it: photon-mapping explore --misreading {misreading}\n");
     } else if grade.verdict == Verdict::Incorrect {
         text += "  misreading: none of the known ones explains it alone\n";
     }

@@ -12,7 +12,8 @@ const HEAD: &str = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf
     style-src 'unsafe-inline'\">\n\
     <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
     <title>Speed and accuracy</title>\n<style>\n\
-    body { max-width: 900px; margin: 0 auto; padding: 16px; font: 16px/1.5 system-ui, sans-serif; }\n\
+    body { max-width: 900px; margin: 0 auto; padding: 16px; }\n\
+    body { font: 16px/1.5 system-ui, sans-serif; }\n\
     img { max-width: 100%; height: auto; }\n\
     table { display: block; overflow-x: auto; border-collapse: collapse; }\n\
     td, th { border: 1px solid #ccc; padding: 3px 9px; text-align: right; }\n\

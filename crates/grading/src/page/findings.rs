@@ -63,11 +63,19 @@ fn card<'a>(finding: &'a Finding, said: &mut HashSet<&'a str>) -> Markup {
                 @if !finding.expected.is_empty() { dt { "expected" } dd { (finding.expected) } }
                 dt { "found" } dd { (finding.found) }
                 @if let Some(p_value) = finding.p_value {
-                    dt { "by chance" } dd { (chance(p_value)) }
+                    dt { "by chance" } dd { (by_chance(p_value)) }
                 }
             }
             @if is_new { p { (finding.advice) } }
         }
+    }
+}
+
+/// How odd what was found is, in words.
+fn by_chance(p_value: f64) -> String {
+    match 100.0 * p_value {
+        percent if percent >= 0.5 => format!("{percent:.0} of 100 correct ones look as odd"),
+        _ => format!("hardly any correct one looks as odd, {}", chance(p_value)),
     }
 }
 

@@ -190,6 +190,7 @@ fn misreading(grade: &Grade, explanation: Option<&Explanation>) -> Markup {
                 @if let Some(advice) = explanation.and_then(|e| e.hypothesis.misreading) {
                     p { em { (advice.section.title()) } ": " (advice.advice) }
                 }
+                p { "To see it: " code { "photon-mapping explore --misreading " (misreading) } }
                 @if let Some(confidence) = grade.misreading_confidence {
                     p.small {
                         (format!("{:.1} % sure, among known misreadings.", 100.0 * confidence))

@@ -10,6 +10,8 @@ use crate::places::Facet;
 use crate::text::rounded;
 
 const SIZE: (u32, u32) = (320, 150);
+/// Fewer bins than this have a tick each.
+const MANY_BINS: usize = 10;
 const FOUND: RGBColor = RGBColor(40, 100, 170);
 const EXPECTED: RGBColor = RGBColor(20, 20, 20);
 const MISREAD: RGBColor = RGBColor(213, 94, 0);
@@ -59,7 +61,7 @@ impl Histogram<'_> {
             .configure_mesh()
             .disable_x_mesh()
             .x_desc(&self.what)
-            .x_labels(6)
+            .x_labels(if self.found.len() < MANY_BINS { MANY_BINS } else { 6 })
             .y_labels(4)
             .label_style(("sans-serif", 11))
             .axis_desc_style(("sans-serif", 12))
