@@ -9,9 +9,8 @@
 //! - `scattering` gives those that survive the roulette a new direction.
 //! - `wave` is the loop around them.
 //!
-//! [`picture`] traces camera and shadow rays in the same way, and `views` and `neighbourhood` tell it
-//! what need not be asked. [`width`] chooses the vector
-//! instructions when the program runs.
+//! [`picture`] traces camera and shadow rays in the same way. `views` and `neighbourhood` tell it
+//! what need not be asked. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths stay the same.** `trace_photon` is the specification. This module may only
 //! do the same roundings in another order.
