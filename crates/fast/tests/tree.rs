@@ -3,6 +3,7 @@
 use fast::lanes::width::Width;
 use fast::tree::Tree;
 use glam::Vec3;
+use photon_mapping::random::photon_random;
 use photon_mapping::scene::Acceleration;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
@@ -77,6 +78,30 @@ fn the_tree_forgets_no_box_of_many() {
     }
 }
 
+/// Where all of a triangle lies along a line through the ray, but for rounding, all of its edge
+/// functions may round to zero, and their exact signs decide.
+#[test]
+fn slivers_are_met_as_the_exact_signs_say() {
+    let mut met = 0;
+    for number in 0..4000 {
+        let mut random = photon_random(3, number);
+        let mut sliver = || {
+            let along = Vec3::new(random() - 0.5, random() - 0.5, 0.0);
+            let mut corner = || (random() - 0.5) * along + random() * Vec3::Z;
+            triangle([corner(), corner(), corner()])
+        };
+        let triangles: Vec<_> = (0..12).map(|_| sliver()).collect();
+        let ray = Ray::new(Vec3::new(0.0, 0.0, -1.0), Vec3::Z);
+        let all = |_: &Triangle, _| true;
+        let expected = brute_force(&triangles, &ray, all);
+        met += usize::from(expected.is_some());
+        for tree in trees(&triangles) {
+            assert_eq!(tree.closest_of(&ray, &triangles, &all), expected, "{number}");
+        }
+    }
+    assert!(met > 1000, "{met}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
@@ -143,15 +168,19 @@ proptest! {
                 (ray.max_t, ray.start_error) = (f32::INFINITY, start_error);
                 let whole = brute_force(&triangles, &ray, all);
                 let endless = ray;
-                ray.max_t = *max_t;
-                let closest = brute_force(&triangles, &ray, all);
-                let closest_front = brute_force(&triangles, &ray, front);
-                for tree in &trees {
-                    prop_assert_eq!(tree.closest_of(&endless, &triangles, &all), whole);
-                    prop_assert_eq!(tree.closest_of(&ray, &triangles, &all), closest);
-                    prop_assert_eq!(tree.any(&ray, &triangles), closest.is_some());
-                    let found = tree.closest_of(&ray, &triangles, &front);
-                    prop_assert_eq!(found, closest_front);
+                // Also an end just behind the hit.
+                let beyond = whole.map_or(1.0, |(_, t)| t.next_up());
+                for max_t in [*max_t, beyond] {
+                    ray.max_t = max_t;
+                    let closest = brute_force(&triangles, &ray, all);
+                    let closest_front = brute_force(&triangles, &ray, front);
+                    for tree in &trees {
+                        prop_assert_eq!(tree.closest_of(&endless, &triangles, &all), whole);
+                        prop_assert_eq!(tree.closest_of(&ray, &triangles, &all), closest);
+                        prop_assert_eq!(tree.any(&ray, &triangles), closest.is_some());
+                        let found = tree.closest_of(&ray, &triangles, &front);
+                        prop_assert_eq!(found, closest_front);
+                    }
                 }
             }
         }

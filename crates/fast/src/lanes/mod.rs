@@ -9,8 +9,8 @@
 //! - `scattering` gives those that survive the roulette a new direction.
 //! - `wave` is the loop around them.
 //!
-//! [`picture`] traces camera and shadow rays in the same way. [`width`] chooses the vector
-//! instructions when the program runs.
+//! [`picture`] traces camera and shadow rays in the same way. `views` and `neighbourhood` tell it
+//! what need not be asked. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths stay the same.** `trace_photon` is the specification. This module may only
 //! do the same roundings in another order.
@@ -36,6 +36,7 @@ mod outlook;
 pub mod picture;
 mod scattering;
 mod trigonometry;
+mod views;
 mod wave;
 pub mod width;
 
@@ -51,7 +52,6 @@ use photon_mapping::scene::triangle::Triangle;
 use closest_hit::SharedCorners;
 use offset::Offset;
 use outlook::Outlook;
-pub use wave::Stage;
 use width::Width;
 
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
@@ -79,6 +79,23 @@ pub struct LaneTracer<'renderer> {
     offset: Offset,
     /// What each light sees.
     outlooks: Vec<Outlook>,
+}
+
+/// A part of the way of a wave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Photons draw their directions, and those that may go on are sorted out.
+    Emission,
+    /// What these meet first.
+    FirstHit,
+    /// The numbers for roulette and scattering that the first block did not have.
+    Numbers,
+    /// Roulette, and the direction after it.
+    Scattering,
+    /// What scattered photons meet.
+    LaterHits,
+    /// The records of what is stored, in order.
+    Records,
 }
 
 /// What a photon needs to know of a triangle that it hits.

@@ -25,7 +25,7 @@ impl Neighbourhood {
     /// two others lies between theirs. A little more than `radius` covers the rounding of the
     /// distance that [`PhotonMap::any_within_cube`] compares.
     pub fn new(map: &PhotonMap, radius: f32) -> Self {
-        let bits = (BITS * map.len()).next_power_of_two().clamp(1 << 10, 1 << 22);
+        let bits = (BITS * map.len()).next_power_of_two().clamp(1 << 10, 1 << 20);
         let mut marked = Self { words: vec![0; bits / 32], shift: 32 - bits.trailing_zeros() };
         if map.positions().iter().any(|position| position.is_nan()) {
             // Then every point is near.

@@ -6,9 +6,8 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 
-use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners, mask};
-use super::neighbourhood::Neighbourhood;
-use super::outlook::{self, Outlook};
+use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
+use super::views::{View, Views};
 use super::width::Width;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_mapping_renderer::{
@@ -85,51 +84,6 @@ pub fn take_picture(
         picture = take_with_port();
     }
     CheckedPicture { picture, difference }
-}
-
-/// What a camera may see in which direction.
-struct Views {
-    /// Of each cell of its [`Outlook`], a bit for every triangle. The last one, for
-    /// [`outlook::UNKNOWN`], has all.
-    of_cells: Vec<u128>,
-    all: SharedCorners,
-    dots: Neighbourhood,
-}
-
-impl Views {
-    fn new(renderer: &PhotonMappingRenderer, origin: Vec3) -> Self {
-        let scene = &renderer.stored_scene;
-        let triangles = scene.triangles().len();
-        let outlook = Outlook::new(scene, origin, &vec![0.0; triangles]);
-        let bits = |triangles: &[u32]| triangles.iter().fold(0, |bits, t| bits | 1_u128 << t);
-        let mut of_cells: Vec<u128> =
-            (0..outlook::UNKNOWN).map(|cell| bits(outlook.candidates(cell))).collect();
-        of_cells.push(bits(&(0..triangles as u32).collect::<Vec<_>>()));
-        let dots = Neighbourhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS);
-        Self { of_cells, all: SharedCorners::new(scene), dots }
-    }
-}
-
-/// Finds the cells of rays from the camera.
-struct View<'a> {
-    rays: &'a Rays,
-    cells: &'a mut [u32; GROUP],
-}
-
-impl NullaryFnOnce for View<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let [x, y, z] = &self.rays.direction;
-        for lane in 0..GROUP {
-            let (cell, shear) = outlook::aim(Vec3::new(x[lane], y[lane], z[lane]));
-            // An outlook counts with shears like those of a photon.
-            let is_small = |shear: f32| (shear != 0.0) & (shear.abs() < outlook::SMALLEST_SHEAR);
-            let is_unknown = mask(is_small(shear.x) | is_small(shear.y));
-            self.cells[lane] = (cell & !is_unknown) | (outlook::UNKNOWN & is_unknown);
-        }
-    }
 }
 
 /// The points that a group of camera rays sees, one after another.
@@ -269,11 +223,11 @@ impl<'a> PictureTracer<'a> {
         for light in scene.lights() {
             let (rays, cosines) = (&mut rays, &mut cosines);
             self.lanes.run(Towards { seen, light: light.position, rays, cosines });
-            for lane in 0..seen.count {
+            for (lane, cosine) in cosines.iter().enumerate().take(seen.count) {
                 let triangle = &scene.triangles()[seen.triangles[lane] as usize];
                 let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
                 let diffuse_response = mesh_object.material.base_diffuse_reflection();
-                let color = diffuse_response * light.color * cosines[lane];
+                let color = diffuse_response * light.color * *cosine;
                 if color == Vec3::ZERO {
                     continue;
                 }

@@ -12,27 +12,10 @@ use super::emission::{self, Aim, Aims, Emit, LaneEmission, coordinate, is_in_sph
 use super::first_hit::{FirstHit, FirstHits};
 use super::outlook::Outlook;
 use super::scattering::Scatter;
-use super::{LaneSurface, LaneTracer};
+use super::{LaneSurface, LaneTracer, Stage};
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::ray::Ray;
-
-/// A part of the way of a wave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Photons draw their directions, and those that may go on are sorted out.
-    Emission,
-    /// What these meet first.
-    FirstHit,
-    /// The numbers for roulette and scattering that the first block did not have.
-    Numbers,
-    /// Roulette, and the direction after it.
-    Scattering,
-    /// What scattered photons meet.
-    LaterHits,
-    /// The records of what is stored, in order.
-    Records,
-}
 
 /// A photon on its way from the light.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Eight numbers side by side, with the vectors that the processor has.
 
-use pulp::{NullaryFnOnce, Scalar256b, Simd, f32x8, m32x8};
+use pulp::{Scalar256b, Simd, f32x8, m32x8};
 
 use crate::lanes::width::Width;
 
@@ -72,7 +72,7 @@ pub trait WithEight {
 #[inline(always)]
 pub fn with_eight<K: WithEight>(width: Width, kernel: K) -> K::Output {
     struct Call<K>(pulp::x86::V3, K);
-    impl<K: WithEight> NullaryFnOnce for Call<K> {
+    impl<K: WithEight> pulp::NullaryFnOnce for Call<K> {
         type Output = K::Output;
 
         #[inline(always)]
