@@ -33,6 +33,22 @@
 #include <string>
 #include <vector>
 
+// Shared by photon_dump.hpp and reference_rand.hpp, whichever comes first.
+#ifndef PHOTON_NUMBERS
+#define PHOTON_NUMBERS
+namespace photon_numbers {
+// How many numbers reference_rand.hpp gave this thread's photon, if it gives any.
+struct Drawn {
+    bool is_counted;
+    std::uint64_t numbers;
+};
+inline Drawn& drawn() {
+    static thread_local Drawn of_thread = {false, 0};
+    return of_thread;
+}
+} // namespace photon_numbers
+#endif
+
 namespace photon_dump {
 namespace detail {
 
@@ -185,7 +201,8 @@ bool dump(const Photons& photons, const std::string& path) {
 class PhotonDump {
 public:
     PhotonDump()
-        : photon_(0), bounce_(0), has_begun_(false), has_photons_(true), has_surfaces_(true) {}
+        : photon_(0), bounce_(0), has_begun_(false), has_photons_(true), has_surfaces_(true),
+          is_warned_(false) {}
 
     void begin_photon(std::uint64_t i) {
         photon_ = i;
@@ -214,6 +231,7 @@ public:
         record.photon = photon_;
         record.bounce = ++bounce_;
         record.surface = surface;
+        notice_numbers();
         // One record that lacks a value costs the column: a made-up value would be compared like a
         // true one.
         has_photons_ = has_photons_ && has_begun_;
@@ -245,12 +263,28 @@ public:
     }
 
 private:
+    // The emission takes three numbers, and each bounce takes three. One bounce less is asked for:
+    // a mistaken program stores the first hit, too.
+    void notice_numbers() {
+        const photon_numbers::Drawn& drawn = photon_numbers::drawn();
+        if (is_warned_ || !drawn.is_counted || drawn.numbers >= 3 * std::uint64_t(bounce_)) {
+            return;
+        }
+        std::fprintf(stderr,
+                     "photon_dump: photon %llu is stored at bounce %u after %llu numbers from rand(), "
+                     "too few: glm::linearRand, <random> and other files draw from elsewhere\n",
+                     static_cast<unsigned long long>(photon_), static_cast<unsigned>(bounce_),
+                     static_cast<unsigned long long>(drawn.numbers));
+        is_warned_ = true;
+    }
+
     std::vector<detail::Record> records_;
     std::uint64_t photon_;
     std::uint32_t bounce_;
     bool has_begun_;
     bool has_photons_;
     bool has_surfaces_;
+    bool is_warned_;
 };
 
 } // namespace photon_dump

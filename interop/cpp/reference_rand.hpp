@@ -25,6 +25,22 @@
 #include <cstdio>
 #include <stdint.h>
 
+// Shared by photon_dump.hpp and reference_rand.hpp, whichever comes first.
+#ifndef PHOTON_NUMBERS
+#define PHOTON_NUMBERS
+namespace photon_numbers {
+// How many numbers reference_rand.hpp gave this thread's photon, if it gives any.
+struct Drawn {
+    bool is_counted;
+    std::uint64_t numbers;
+};
+inline Drawn& drawn() {
+    static thread_local Drawn of_thread = {false, 0};
+    return of_thread;
+}
+} // namespace photon_numbers
+#endif
+
 namespace reference_rand {
 
 // RAND_MAX as glibc has it. As a float it rounds up to 2^31, which is what makes (float)rand() /
@@ -70,6 +86,8 @@ public:
                          static_cast<unsigned long long>(number_));
             is_warned_ = true;
         }
+        photon_numbers::drawn().is_counted = true;
+        photon_numbers::drawn().numbers = 0;
         seed_ = seed;
         number_ = number;
         block_ = 0;
@@ -89,6 +107,7 @@ public:
             fill_block();
             used_ = 0;
         }
+        ++photon_numbers::drawn().numbers;
         return words_[used_++];
     }
 

@@ -195,12 +195,17 @@ int main(int, char** argv) {
     recorder.store(&photon);
     reference_rand::begin_photon(148, 1);
     reference_rand::begin_photon(148, 2);
+    const float numbers_of_emission[] = {rand(0, 1), rand(0, 1), rand(0, 1)};
+    recorder.begin_photon(2);
+    recorder.store(photon);
+    recorder.store(photon);
+    (void)numbers_of_emission;
     return is_same && recorder.write(argv[1]) ? 0 : 1;
 }
 "#;
 
 #[test]
-fn rand_is_replaced_however_it_is_written_and_a_photon_without_draws_is_told() {
+fn rand_is_replaced_however_it_is_written_and_numbers_from_elsewhere_are_told() {
     let folder = folder();
     let source = folder.path().join("other_calls.cpp");
     std::fs::write(&source, OTHER_CALLS).expect("can be written");
@@ -208,7 +213,10 @@ fn rand_is_replaced_however_it_is_written_and_a_photon_without_draws_is_told() {
     let list = folder.path().join("list.csv");
     let output = Command::new(program).arg(&list).output().expect("the program runs");
     assert!(output.status.success());
-    assert!(String::from_utf8_lossy(&output.stderr).contains("photon 1 drew no number"));
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(errors.contains("photon 1 drew no number"), "{errors}");
+    assert!(errors.contains("photon 2 is stored at bounce 2 after 3 numbers"), "{errors}");
+    assert!(!errors.contains("photon 0"), "{errors}");
     assert!((1.0..2.0).contains(&load(&list).expect("a list").records[0].position.x));
 }
 
