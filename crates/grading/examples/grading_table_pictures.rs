@@ -1,7 +1,7 @@
 //! How good the grader is at pictures: simulates them, judges them, and prints a table.
 //!
-//! `grading_table_pictures [SEEDS] [CORRECT]`: the pictures of every misreading, and those of every
-//! number of photons emitted that are correct.
+//! `grading_table_pictures [SEEDS] [CORRECT] [EMITTED]`: the pictures of every misreading, of the
+//! numbers of photons that programs emit or of one, and those of every number that are correct.
 
 use grading::picture::expectations::PictureExpectations;
 use grading::picture::trials::{FalseAlarms, Row, detect, false_alarms, ids};
@@ -22,6 +22,7 @@ fn main() {
         std::env::args().skip(1).map(|text| text.parse().expect("expected a number")).collect();
     let seeds = arguments.first().copied().unwrap_or(100);
     let correct = arguments.get(1).copied().unwrap_or(20_000);
+    let only = arguments.get(2).copied();
     let places = Places::new(&create_scene());
     let expectations = PictureExpectations::new(&places, MAX_PHOTON_BOUNCES);
 
@@ -50,7 +51,7 @@ fn main() {
     if seeds == 0 {
         return;
     }
-    for emitted in EMITTED {
+    for emitted in only.map_or(EMITTED.to_vec(), |only| vec![only]) {
         println!("\n{emitted} photons emitted:\n");
         println!(
             "| misreading | incorrect, number known | named | incorrect, number not known | named |"

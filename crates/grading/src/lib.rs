@@ -4,21 +4,24 @@
 //! Every way is a [`variants::hypotheses::Hypothesis`]: a fair reading of the handout, or a
 //! misreading seen in real submissions. Each is a small [variation](variants::variation) of one
 //! step of the reference, run through the same tracer, and its [`signature`] says how many photons
-//! it leaves where. A list is an [`observation`]: counts by facet and by cell ([`places`]), and
-//! what shows without counting. [`judge_list`] asks whether any fair reading explains the counts,
-//! and [`naming`] which misreading does.
+//! it leaves where.
+//!
+//! **One judge.** What a submission shows is counts in cells, with what is known of the number of
+//! photons emitted: `evidence`. A list and a [`picture`] differ in how their cells are made and how
+//! hypotheses are projected on them, and in nothing else. `trial` asks whether any fair reading
+//! explains the counts, `naming` which misreading does, and `limits` has every line that is drawn.
+//! What shows without counting is in `facts`.
 //!
 //! **Statistics.** Photons of one path are not independent, so counts are held against means and
 //! *covariance* over paths: the test of Wald, for facets, for cells, for the total, and along the
-//! way to every known misreading, where the power is greatest. p-values are corrected for the
-//! number of tests (Sidak), and the fair reading that fits best counts. A submission is incorrect
-//! below [`judge_list::SIGNIFICANCE`], a tenth of what a class could bear: at small counts the
-//! tails of these tests are a little heavier than the normal law's. Means have a leeway of about
-//! half a part in a hundred, since where a ray starts, and how far off its surface a position is
-//! stored, are nobody's fault; it matters only beyond a million photons. A misreading is named when
-//! its own counts agree with the submission's, by facet and by cell, and neither another's do as
-//! well nor those of two at once ([`variants::pairs`]), which are told without a name.
-//! `golden/grading.md` has what all of this achieves.
+//! way to those misreadings that are hard to see. The fair reading that fits best counts. Up to 125
+//! photons are tested exactly. A submission is incorrect below [`judge_list::SIGNIFICANCE`], a tenth
+//! of what a class could bear: at small counts the tails of these tests are a little heavier than
+//! the normal law's. Means have a leeway, since where a ray starts, and how far off its surface a
+//! position is stored, are nobody's fault; it matters only beyond a million photons. A misreading is
+//! named when its own counts agree with the submission's, by facet and by cell, and neither
+//! another's do as well nor those of two at once ([`variants::pairs`]), which are told without a
+//! name. `golden/grading.md` has what all of this achieves.
 
 mod axes;
 mod bounces;

@@ -1,7 +1,5 @@
 //! The tests of a submission against the fair readings.
 
-use std::borrow::Cow;
-
 use super::evidence::{Evidence, Joined};
 use super::expected::{Expected, Groups};
 use super::kept::Known;
@@ -39,14 +37,16 @@ impl Trial {
         &'a self,
         reading: &'a str,
         explanation: Option<&'a Explanation>,
-        unexplained: &'a Cow<'static, str>,
+        unexplained: &'a str,
     ) -> impl Iterator<Item = Finding> + 'a {
         let misreading = explanation.and_then(|explanation| explanation.hypothesis.misreading);
         self.tests.iter().map(move |test| {
             let expected = format!("{} ({reading})", test.expected);
             let finding = Finding::new(test.check, expected, test.found.clone(), "");
-            let advice = misreading
-                .map_or_else(|| unexplained.clone(), |misreading| misreading.advice.into());
+            let advice = misreading.map_or_else(
+                || unexplained.to_owned().into(),
+                |misreading| misreading.advice.into(),
+            );
             let section = misreading.map(|misreading| misreading.section.title());
             let finding = Finding { section, advice, ..finding };
             finding.weighing(Weight::Fault).by_chance(test.p_value)

@@ -14,7 +14,8 @@ use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use variants::hypotheses::{misreadings, no_offset};
-use variants::variation::{Simulation, Storage, Variation};
+use variants::reading::Reading;
+use variants::variation::{Simulation, Storage, Transformation, Variation};
 
 const EMITTED: u64 = 200_000;
 
@@ -261,6 +262,20 @@ fn half_a_letter_of_the_handout_is_a_mistake_with_a_name() {
         named += usize::from(name(&judgement) == Some("half-normalised"));
     }
     assert!(named >= 4, "{named}");
+}
+
+#[test]
+fn rows_of_what_is_written_are_the_transposed_frame() {
+    let variation = Variation {
+        reading: Reading::LETTER_OF_THE_HANDOUT,
+        frame: Transformation::Rows,
+        ..Variation::default()
+    };
+    let of_rows = positions_of(&records(variation, 1127, EMITTED));
+    for emitted in [None, Some(EMITTED as f64)] {
+        let judgement = judge(&of_rows, emitted, emitted.is_some(), &EXPECTATIONS);
+        assert_eq!(name(&judgement), Some("transposed-frame"));
+    }
 }
 
 #[test]

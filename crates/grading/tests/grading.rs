@@ -126,6 +126,24 @@ fn signatures_of_a_limit_are_those_of_the_tracer() {
 }
 
 #[test]
+fn how_many_fit_is_told_of_fair_photons_alone() {
+    let found = |variation, emitted| {
+        let observation = positions_of(&records(variation, 86, EMITTED));
+        let judgement = judge(&observation, emitted, true, &EXPECTATIONS);
+        let mut findings = judgement.findings.into_iter();
+        findings.find(|finding| finding.check == "enough photons").expect("it is checked").found
+    };
+    let plain = Variation::default();
+    assert!(found(plain, None).contains("of about"));
+    assert!(!found(plain, Some(EMITTED as f64)).contains("of about"));
+    let direct = Variation { storage: Storage::All, ..plain };
+    let always = Variation { roulette: Roulette::Constant(0.9), ..plain };
+    for variation in [direct, always] {
+        assert!(!found(variation, None).contains("of about"));
+    }
+}
+
+#[test]
 fn few_photons_are_tested_exactly() {
     let judged = |positions: Vec<Vec3>| {
         let records = positions.into_iter().map(|position| PhotonRecord { position, ..ABSENT });

@@ -78,6 +78,8 @@ pub enum Transformation {
     Forgotten,
     /// Its columns are these of t, b and n.
     Columns([usize; 3]),
+    /// Its rows are t, b and n.
+    Rows,
     /// b has length 1, t is as it is written.
     HalfNormalised,
 }
@@ -196,7 +198,10 @@ impl Variation {
     pub fn goes_below(&self) -> bool {
         self.flipped_normal
             || self.reading.tangent_basis == TangentBasis::Transposed
-            || matches!(self.frame, Transformation::Forgotten | Transformation::Columns(_))
+            || matches!(
+                self.frame,
+                Transformation::Forgotten | Transformation::Columns(_) | Transformation::Rows
+            )
             || self.hemisphere.goes_below()
             || self.start != Start::Hit
     }
@@ -207,6 +212,7 @@ impl Variation {
         match self.frame {
             Transformation::AsRead => read,
             Transformation::Forgotten => Mat3::IDENTITY,
+            Transformation::Rows => read.transpose(),
             Transformation::Columns(columns) => {
                 let [x, y, z] = columns.map(|column| read.col(column));
                 Mat3::from_cols(x, y, z)

@@ -175,10 +175,19 @@ pub(super) fn transformation() -> Vec<Entry> {
             "transposed-frame",
             section,
             "The columns of the matrix are t, b and n; glm::mat3(t, b, n) takes columns.",
-            [(
-                "t, b and n are the rows of the matrix, not its columns",
-                Variation { reading: transposed, ..plain },
-            )],
+            [
+                (
+                    "t, b and n are the rows of the matrix, not its columns",
+                    Variation { reading: transposed, ..plain },
+                ),
+                (
+                    "t, b and n are the rows of the matrix; t and b as written",
+                    Variation {
+                        reading: Reading::LETTER_OF_THE_HANDOUT,
+                        ..of_frame(Transformation::Rows)
+                    },
+                ),
+            ],
         ),
         Entry::new(
             "permuted-frame",

@@ -25,7 +25,10 @@ pub struct Numbers {
 /// photon whose numbers are known.
 pub fn directions(frame: Mat3, numbers: Numbers) -> Vec<(Section, String, Vec3)> {
     let mut all = Vec::new();
-    for Hypothesis { title, misreading, variation, .. } in misreadings() {
+    let mut misreadings = misreadings();
+    // What a photon does by the normal it meets, before what all do.
+    misreadings.sort_by_key(|it| it.variation.reading.fallback_threshold <= 1.0);
+    for Hypothesis { title, misreading, variation, .. } in misreadings {
         let direction = variation.direction_of_one(frame, numbers);
         if let (Some(Misreading { section, .. }), Some(direction)) = (misreading, direction) {
             all.push((section, title, direction));
@@ -101,6 +104,7 @@ impl Variation {
         match (self.frame, basis) {
             (_, TangentBasis::LetterOfTheHandout) => None,
             (_, TangentBasis::Transposed) => of(frame.transpose()),
+            (Transformation::Rows, _) => of(frame.transpose()),
             (Transformation::Forgotten, _) => of(Mat3::IDENTITY),
             (Transformation::Columns(columns), _) => {
                 let [x, y, z] = columns.map(|column| frame.col(column));
