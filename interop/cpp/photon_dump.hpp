@@ -271,8 +271,8 @@ private:
             return;
         }
         std::fprintf(stderr,
-                     "photon_dump: photon %llu is stored at bounce %u after %llu numbers from rand(), "
-                     "too few: glm::linearRand, <random> and other files draw from elsewhere\n",
+                     "photon_dump: photon %llu is stored at bounce %u after %llu numbers from "
+                     "rand(), too few: glm::linearRand, <random> and other files draw from elsewhere\n",
                      static_cast<unsigned long long>(photon_), static_cast<unsigned>(bounce_),
                      static_cast<unsigned long long>(drawn.numbers));
         is_warned_ = true;

@@ -193,8 +193,8 @@ impl Search {
         }
     }
 
-    /// Of several files with one name or one function, the one where the framework has it, else the one nearest to
-    /// the top.
+    /// Of several files with one name, or with one function, the one where the framework has it,
+    /// else the one nearest to the top.
     fn choose(
         &self,
         [name, home, function]: [&str; 3],

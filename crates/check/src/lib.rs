@@ -17,6 +17,7 @@ pub mod grade;
 mod headers;
 pub mod kit;
 mod link;
+mod messages;
 pub mod plan;
 pub mod report;
 pub mod run;

@@ -187,7 +187,8 @@ fn trace(step: Step, scene: usize) -> String {
         Step::GrowPath => (16, 1, 5),
         Step::Black | Step::White => (400, 1, FAR),
         Step::Threshold(_) => (1, 1, FAR),
-        Step::GreyCube => (2000, 1, FAR),
+        // Half of the paths end at every hit, unless there is no roulette.
+        Step::GreyCube => (2000, 1, 50),
         Step::Floor => (2 * CALLS, 1, FAR),
         _ => (CALLS, 1, FAR),
     };

@@ -86,8 +86,8 @@ impl Whole {
                  {records} photons stored"
             ),
             Outcome::Different if are_right(sections) => format!(
-                "other photons than the reference's (numbers drawn or used in another way), so that \
-                 only statistics can tell; {records} photons stored"
+                "other photons than the reference's (numbers drawn or used in another way), so \
+                 that only statistics can tell; {records} photons stored"
             ),
             Outcome::Different => self.divergence(report, sections),
         }

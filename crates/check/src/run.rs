@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::error::CheckError;
-use crate::events::{Log, Reader};
+use crate::events::Log;
 use crate::kit::write;
+use crate::messages::Reader;
 use crate::plan::{self, Step};
 use crate::sandbox::{Ending, Limits, MOST_BYTES, Outcome, Program};
 

@@ -101,7 +101,8 @@ fn read(name: &str) -> String {
 fn a_checkout_brings_its_own_helpers() {
     let light = read("PointLight.cpp").replace("((float)rand() / RAND_MAX)", "RandFloat01()");
     let light = format!(
-        "#include \"utility\\Utils.h\"\n#include <SDL2/SDL.h>\n#include \"../Area/AreaLight.h\"\n{light}"
+        "#include \"utility\\Utils.h\"\n#include <SDL2/SDL.h>\n\
+         #include \"../Area/AreaLight.h\"\n{light}"
     );
     let area_light = "#pragma once\n#include \"common/Scene/Lights/Light.h\"\n\
                       class AreaLight : public Light { int Area() const override; };\n";

@@ -208,7 +208,8 @@ auto set_bounces(Renderer& renderer, int count, int)
 }
 template <class Renderer>
 bool set_bounces(Renderer&, int count, long) {
-    return count == 1000;
+    // From here on, the step does not ask how paths end.
+    return count >= 50;
 }
 
 template <class Renderer>

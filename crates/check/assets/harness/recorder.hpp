@@ -2,7 +2,7 @@
 //
 // Messages go to a pipe, in pieces. First comes a random key of 8 bytes. The key and a u32, the
 // length, stand before every piece: what a submission writes to the pipe by itself lacks the key.
-// Each message starts with a letter; numbers are as they lie in memory. `events.rs` reads them.
+// Each message starts with a letter; numbers are as they lie in memory. `messages.rs` reads them.
 //
 //   B u32            the step with this number begins
 //   N                one call of the student's code begins
