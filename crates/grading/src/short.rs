@@ -15,7 +15,8 @@ use super::places::Places;
 use super::signature::{Signature, Signatures, hypotheses};
 use super::statistics::Matrix;
 use photon_mapping::photon_list::PhotonRecord;
-use variants::hypotheses::{BOUNCE_OFF_BY_ONE, Hypothesis};
+use variants::hypotheses::BOUNCE_OFF_BY_ONE;
+use variants::variation::Variation;
 
 /// With more bounces allowed, hardly a path ends by the limit, and the signatures without one are
 /// right.
@@ -124,13 +125,15 @@ impl ShortPaths {
     fn signature(
         &self,
         Known { hypothesis, signature: long }: &Known<Signature>,
-        reference: &Hypothesis,
+        fair: &[Known<Signature>],
         max_bounces: usize,
         part: &Matrix,
         places: &Places,
     ) -> Signature {
-        // A bounce fewer is the reference's last one.
-        let counted = if hypothesis.id == BOUNCE_OFF_BY_ONE { reference } else { hypothesis };
+        // A bounce fewer is a fair reading without its last one.
+        let with_last = Variation { fewer_bounces: 0, ..hypothesis.variation };
+        let with_last = fair.iter().find(|known| known.hypothesis.variation == with_last);
+        let counted = with_last.map_or(hypothesis, |known| &known.hypothesis);
         let ByBounce { emitted, counts } = &self.of[&counted.key()];
         let allowed = max_bounces.saturating_sub(hypothesis.variation.fewer_bounces as usize);
         let means = |counts: &[f64]| counts.iter().map(|count| count / emitted).collect::<Vec<_>>();
@@ -175,7 +178,7 @@ impl ShortPaths {
         let allowed = max_bounces as usize;
         let part = self.part_of_pairs(allowed);
         let of = |known: &Known<Signature>| Known {
-            signature: self.signature(known, &long.fair[0].hypothesis, allowed, &part, places),
+            signature: self.signature(known, &long.fair, allowed, &part, places),
             hypothesis: known.hypothesis.clone(),
         };
         let fair: Vec<_> = long.fair.iter().map(of).collect();

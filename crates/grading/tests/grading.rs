@@ -95,8 +95,7 @@ fn signatures_of_a_limit_are_those_of_the_tracer() {
     for max_bounces in [1, 2, 3, 7, 15] {
         let table = Signatures::of_limit(&PLACES, max_bounces);
         let ids = ["direct-stored", "mean-roulette", BOUNCE_OFF_BY_ONE, "third-hit-on"];
-        let first = |id| table.misreadings.iter().find(|known| known.hypothesis.id == id);
-        let of_ids = ids.into_iter().filter_map(first);
+        let of_ids = table.misreadings.iter().filter(|known| ids.contains(&known.hypothesis.id));
         for known in of_ids.chain([&table.fair[0], &table.fair[1]]) {
             let emitted = 100_000;
             let (measured, _) = measure(&known.hypothesis, &PLACES, emitted, max_bounces);
