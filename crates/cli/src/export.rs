@@ -112,8 +112,8 @@ pub fn in_name(name: &str) -> Option<Student> {
     }
 }
 
-/// The students of Gradescope's exports among `paths`, by their folders: what a student hands in may
-/// have such a file, too, which then names nobody else.
+/// The students of Gradescope's exports among `paths`, by their folders: what a student hands in
+/// may have such a file, too, which then names nobody else.
 pub fn students(paths: &[PathBuf]) -> BTreeMap<PathBuf, Student> {
     let mut students = BTreeMap::new();
     for path in paths {

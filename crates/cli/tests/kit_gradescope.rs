@@ -232,8 +232,10 @@ fn a_grader_that_takes_too_long_or_is_ended_leaves_a_result() {
     fs::create_dir_all(&submission).expect("it can be made");
     let list = reference_csv(&submission, 20_000);
     let text = fs::read_to_string(&list).expect("a list is text");
+    let position = |row: &str| row.split(',').take(3).collect::<Vec<_>>().join(",") + "\n";
     let (head, rows) = text.split_once('\n').expect("it has a head");
-    fs::write(&list, format!("{head}\n{}", rows.repeat(2000))).expect("it can be written");
+    let rows: String = rows.lines().map(position).collect();
+    fs::write(&list, position(head) + &rows.repeat(90_000_000 / rows.len())).expect("written");
     run_line("autograde {} --timeout 1", &[folder.path()]).success();
     let late = valid(folder.path());
     assert_eq!(late["score"], 0.0);

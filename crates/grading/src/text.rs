@@ -13,8 +13,8 @@ pub fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_odd(letter) { '\u{fffd}' } else { letter }).collect()
 }
 
-/// Whether `letter` has no shape of its own: it separates lines, has no width, sets the direction of
-/// text, or is blank without being a space. Unicode's property Default_Ignorable_Code_Point, and
+/// Whether `letter` has no shape of its own: it separates lines, has no width, sets the direction
+/// of text, or is blank without being a space. Unicode's property Default_Ignorable_Code_Point, and
 /// what else is like that.
 pub fn is_invisible(letter: char) -> bool {
     matches!(

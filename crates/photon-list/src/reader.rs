@@ -14,8 +14,8 @@ use super::ply::{self, Header};
 use super::record::{Columns, Rows};
 use super::text::{Lines, decoded};
 
-/// No longer list is graded: the positions of five million records have 60 MB in PLY, and time grows
-/// with the bytes.
+/// No longer list is graded: the positions of five million records have 60 MB in PLY, and time
+/// grows with the bytes.
 pub const MOST_BYTES: u64 = 100_000_000;
 /// So much of a file is looked at to see whether it is a list.
 pub const LONGEST_START: u64 = 65_536;

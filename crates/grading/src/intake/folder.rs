@@ -92,8 +92,8 @@ impl Found {
         }
         if is_cut || !level.is_empty() {
             found.notes.push(format!(
-                "there are more than {MOST_ENTRIES} files or {MOST_LEVELS} levels in it, or far too \
-                 much to read, and the rest was not searched"
+                "there are more than {MOST_ENTRIES} files or {MOST_LEVELS} levels in it, or far \
+                 too much to read, and the rest was not searched"
             ));
         }
         Ok(found)
@@ -194,8 +194,8 @@ impl Found {
     }
 }
 
-/// The names in `folder`, those that a submission has first, and those with a dot last, which systems
-/// leave: .DS_Store, ._photons.csv, .git.
+/// The names in `folder`, those that a submission has first, and those with a dot last, which
+/// systems leave: .DS_Store, ._photons.csv, .git.
 fn names(folder: &Path) -> io::Result<Vec<OsString>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)?.take(MOST_NAMES) {
