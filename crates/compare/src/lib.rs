@@ -3,7 +3,8 @@
 //! [`alignment`] pairs the records, [`differences`] counts what the pairs differ in, [`divergence`]
 //! picks the first difference and asks [`verdict`] which [section](variants::section) of the
 //! handout it belongs to, which in turn tries the
-//! [misreadings](variants::misreadings::directions) of one photon; [`whole`] looks at all differences together. [`fair_search`] tries whether another [`fair`] way
+//! [misreadings](variants::misreadings::directions) of one photon; [`whole`] looks at all
+//! differences together. [`fair_search`] tries whether another [`fair`] way
 //! explains the differences, so that [`divergence`] looks at what is left of them. [`conventions`]
 //! undoes other axes and numbers first, and [`numbering`] finds the photons of lists that do not
 //! tell them. [`report`] puts it together; [`pictures`] compares pictures instead.

@@ -42,7 +42,8 @@ pub(crate) trait Evidence {
         None
     }
 
-    /// The chance of the counts by facet, exactly, under a fair reading; nothing where there are too
+    /// The chance of the counts by facet, exactly, under a fair reading; nothing where there are
+    /// too
     /// many.
     fn of_few(&self, _reading: usize) -> Option<f64> {
         None

@@ -8,7 +8,8 @@ const SIZES: [f64; 2] = [1.0, 1e9];
 const STEPS: usize = 3;
 /// Of fewer counts than this, the total tells the number best: most cells have none.
 const FEW: f64 = 250.0;
-/// A count is known up to one photon, or pixel: more than the normal law has where few are expected.
+/// A count is known up to one photon, or pixel: more than the normal law has where few are
+/// expected.
 const VARIANCE_OF_ONE: f64 = 1.0;
 
 /// What is expected of some counts, for one number of photons emitted.

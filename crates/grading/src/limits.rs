@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 // Error rates.
 
-/// A submission that is as strange as this by chance alone is called incorrect, in its places, on the
+/// A submission that is as strange as this by chance alone is called incorrect, in its places, on
+/// the
 /// way to a misreading, or in its marks. Of ten thousand submissions that are correct, one may be;
 /// these tests and their two parts, with the number of photons and without, add up to half of
 /// that. The rest leaves room for what they assume.
@@ -59,7 +60,8 @@ pub(crate) const LEEWAY_OF_COVERAGE: f64 = 0.02;
 
 // Resolutions.
 
-/// So many standard deviations is a misreading away where a test of its own is needed. Closer, it is
+/// So many standard deviations is a misreading away where a test of its own is needed. Closer, it
+/// is
 /// seen once in 20 times; farther, a test of 72 cells sees it 999 times in 1000.
 pub(crate) const NEEDED: RangeInclusive<f64> = 3.0..=14.0;
 

@@ -156,7 +156,8 @@ impl Finding {
         Self { passed, advice: if passed { "".into() } else { self.advice }, ..self }
     }
 
-    /// The same of what comes by chance as often as `p_value`: too rarely, or it is as it should be.
+    /// The same of what comes by chance as often as `p_value`: too rarely, or it is as it should
+    /// be.
     pub fn by_chance(self, p_value: f64) -> Self {
         Self { p_value: Some(p_value), ..self.passed_if(p_value >= SIGNIFICANCE) }
     }

@@ -77,7 +77,8 @@ pub(super) fn all_red() -> Finding {
     }
 }
 
-/// Whether the dots are enough to be what the handout asks for. Only where they are fair, it is told
+/// Whether the dots are enough to be what the handout asks for. Only where they are fair, it is
+/// told
 /// how many photons fit them.
 pub(super) fn enough(found: f64, fitted: f64, are_fair: bool) -> Finding {
     storage(
