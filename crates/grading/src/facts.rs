@@ -29,8 +29,9 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     let is_identical = identical > (MOST_IDENTICAL * on_facets).max(2.0);
     let (same, exactly) =
         if is_identical && !is_repeated { (identical, "exactly ") } else { (repeated, "") };
-    let paths_come_again =
-        is_identical && observation.copies.is_some_and(|copies| copies.side_by_side < 0.5);
+    let are_few_places = observation.copies.is_some_and(|copies| copies.are_few_places());
+    let are_apart = observation.copies.is_some_and(|copies| copies.side_by_side < 0.5);
+    let paths_come_again = is_identical && (are_few_places || are_apart);
     let mut findings = vec![
         fact(
             "finite",
@@ -68,7 +69,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
             "hardly any two photons lie at the same place",
             format!("{} photons are {exactly}where another one is", of_all(same, on_facets)),
             !is_repeated && !is_identical,
-            Weight::Fault,
+            if are_few_places { Weight::Grave } else { Weight::Fault },
             if paths_come_again {
                 "Whole paths come again: check that the generator is seeded once for the whole \
                  run, and that threads do not share a seed."

@@ -77,6 +77,9 @@ pub(crate) const SMALL_LIMIT: i32 = 12;
 pub(crate) const MANY_REPEATED: f64 = 0.03;
 /// Of identical positions, more than this part of all makes every path a copy of another.
 pub(crate) const ALL_COPIED: f64 = 0.95;
+/// A list with fewer different positions for each photon is a few places again and again. Copies by
+/// thread have one for as many photons as there are threads.
+pub(crate) const FEW_PLACES: f64 = 0.02;
 /// Of the records, at least this part lies on surfaces where their number is held against the
 /// intensity.
 pub(crate) const MOSTLY: f64 = 0.5;

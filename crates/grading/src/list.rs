@@ -149,7 +149,7 @@ impl OfList<'_> {
         let Self { observation, .. } = self;
         let copies = observation.copies.filter(|copies| copies.all > ALL_COPIED);
         if let Some(copies) = copies {
-            let is_twice = copies.side_by_side > ALL_COPIED;
+            let is_twice = copies.side_by_side > ALL_COPIED && !copies.are_few_places();
             let hypothesis = if is_twice { stored_twice() } else { repeated_paths() };
             return Some(Explanation::by_marks(hypothesis, self.size()));
         }

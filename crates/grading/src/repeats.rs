@@ -1,6 +1,6 @@
 //! Photons that lie where another one does.
 
-use super::limits::{BY_ROUNDING, MOST_NEIGHBOURS, SAME_PLACE};
+use super::limits::{BY_ROUNDING, FEW_PLACES, MOST_NEIGHBOURS, SAME_PLACE};
 use super::places::Place;
 use glam::DVec3;
 use photon_mapping::photon_list::PhotonRecord;
@@ -12,6 +12,16 @@ pub struct Copies {
     pub all: f64,
     /// Of these, the part that has one of its copies beside it in the list.
     pub side_by_side: f64,
+    /// The number of different positions, divided by that of the photons.
+    pub places: f64,
+}
+
+impl Copies {
+    /// Whether the list is a few places, each again and again, as when every photon draws the same
+    /// numbers.
+    pub fn are_few_places(&self) -> bool {
+        self.places < FEW_PLACES
+    }
 }
 
 /// Which part of `records` come more than once, to the last bit.
@@ -21,7 +31,13 @@ pub(super) fn copies(records: &[PhotonRecord]) -> Copies {
     sorted.sort_unstable();
     let all = in_runs(&sorted, |a, b| a == b);
     let side_by_side = in_runs(records, |a, b| bits(a) == bits(b));
-    Copies { all: all / records.len().max(1) as f64, side_by_side: side_by_side / all.max(1.0) }
+    let places = sorted.chunk_by(|a, b| a == b).count() as f64;
+    let records = records.len().max(1) as f64;
+    Copies {
+        all: all / records,
+        side_by_side: side_by_side / all.max(1.0),
+        places: places / records,
+    }
 }
 
 /// How many of `all` stand beside one that is the `same`.

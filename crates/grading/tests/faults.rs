@@ -8,6 +8,7 @@ use grading::judge_list::{Expectations, Judgement, judge};
 use grading::observation::{Observation, observe};
 use grading::places::Places;
 use grading::signature::Signatures;
+use grading::verdict::Weight;
 use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
 use photon_mapping::assignment8::create_scene;
@@ -208,6 +209,15 @@ fn copies_are_named_by_how_they_come() {
             let mut of_faults = judgement.findings.iter().filter(|finding| finding.is_fault());
             assert!(of_faults.all(|fault| fault.advice.contains(words)), "{named}");
         }
+    }
+    // A few places again and again: every photon draws the same numbers, or somebody wants points.
+    let three = all[..3].iter().copied().cycle().take(3000).collect();
+    for list in [vec![all[0]; 100], vec![all[0]; 5000], three] {
+        let judgement = judge(&positions_of(&list), None, false, &EXPECTATIONS);
+        assert_ne!(name(&judgement), Some("stored-twice"));
+        let mut of_faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+        let grave = of_faults.find(|fault| fault.weight == Weight::Grave).expect("it is grave");
+        assert!(grave.advice.contains("eed"), "{grave:#?}");
     }
     // Of self-hits, many are copies, and not all.
     let self_hits = records(no_offset([0.5; 12]).variation, 91, EMITTED);

@@ -51,8 +51,8 @@ impl Arrivals {
 }
 
 impl LaneTracer<'_> {
-    /// Traces the photons `photons` of `light` and adds what they store to `records`. `done` is told
-    /// of every part that is done and for how many photons, for those who take the time.
+    /// Traces the photons `photons` of `light` and adds what they store to `records`. `done` is
+    /// told of every part that is done and for how many photons, for those who take the time.
     pub(super) fn trace_wave(
         &self,
         light: &PointLight,

@@ -214,7 +214,8 @@ impl<E: Eight> Way<E> {
         }
     }
 
-    /// The triangles' corners number `corner` as the ray sees them, with the roundings of [`Triangle::intersect`].
+    /// The triangles' corners number `corner` as the ray sees them, with the roundings of
+    /// [`Triangle::intersect`].
     #[inline(always)]
     fn see(&self, leaf: &Leaf, corner: usize) -> [f32x8; 3] {
         let eight = self.eight;
