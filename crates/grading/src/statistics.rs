@@ -112,6 +112,9 @@ pub fn normal_tails(z: f64) -> f64 {
 /// come in paths, a few of which are long: where few are expected, their count is askew, and large
 /// counts are likelier than the normal law has it; the gamma law is more askew still.
 pub fn tails_of_count(count: f64, mean: f64, variance: f64) -> f64 {
+    if mean <= 0.0 {
+        return if count > 0.0 { 0.0 } else { 1.0 };
+    }
     let normal = normal_tails((count - mean) / variance.sqrt());
     let (shape, scaled) = (mean * mean / variance, count * mean / variance);
     let gamma = match count {

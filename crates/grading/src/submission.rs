@@ -399,7 +399,7 @@ fn without_bounces(
         "Insert a photon only where the size of 'path' is larger than 1, and trace no further than \
          the bounces that are left.",
     );
-    let finding = finding.weighing(Weight::Fault).passed_if(is_right).of(Section::PhotonStorage);
+    let finding = finding.weighing(Weight::Grave).passed_if(is_right).of(Section::PhotonStorage);
     let verdict = if is_right { Verdict::Correct } else { Verdict::Incorrect };
     let because = Because { findings: vec![finding], ..Because::default() };
     because.graded(submission, settings, verdict, stored)

@@ -17,8 +17,8 @@
 //! - one edge function is certainly positive and another certainly negative.
 //!
 //! The test's signs are the true ones unless an edge function underflows to zero. Shears of a
-//! photon's direction are 0 or at least [`SMALLEST_SHEAR`]. So none underflows where each coordinate
-//! is 0 or at least 2^-25. A triangle with smaller coordinates is in every cell.
+//! photon's direction are 0 or at least [`SMALLEST_SHEAR`]. So none underflows where each
+//! coordinate is 0 or at least 2^-25. A triangle with smaller coordinates is in every cell.
 //!
 //! A photon straight from the light is not stored, so one that is absorbed at its first hit needs
 //! no tracing. [`Outlook::may_go_on`] plays its roulette against the largest reflection in its
