@@ -58,14 +58,14 @@ pub fn run(arguments: &AutogradeArgs) -> Result<u8, CliError> {
 }
 
 /// A part of the results: that of the C++, or that of the list and the picture.
-struct Part {
+struct ResultsPart {
     /// None where the grader, not the student, is at fault, or where there is nothing to judge.
     score: Option<f64>,
     output: String,
     tests: Vec<Value>,
 }
 
-impl Part {
+impl ResultsPart {
     fn failed(what: &str, why: &str) -> Self {
         let output = format!("{what} could not be judged: {why}\nPlease tell your instructor.\n");
         let test = json!({
@@ -80,7 +80,9 @@ fn results(arguments: &AutogradeArgs) -> Value {
     let submission = arguments.base.join("submission");
     let policy = match grade::policy(arguments.policy.as_deref()) {
         Ok(policy) => policy,
-        Err(error) => return combined(&[Part::failed("The submission", &error.to_string())], 0.0),
+        Err(error) => {
+            return combined(&[ResultsPart::failed("The submission", &error.to_string())], 0.0);
+        }
     };
     let mut files = Vec::new();
     gather(&submission, 0, &mut files);
@@ -96,13 +98,13 @@ fn results(arguments: &AutogradeArgs) -> Value {
     if parts.is_empty() {
         let output = "Nothing was handed in: expected PointLight.cpp and \
                       PhotonMappingRenderer.cpp, a photon list (PLY or CSV), or a picture (PNG).\n";
-        parts.push(Part { score: None, output: output.to_owned(), tests: Vec::new() });
+        parts.push(ResultsPart { score: None, output: output.to_owned(), tests: Vec::new() });
     }
     combined(&parts, policy.unreadable)
 }
 
 /// The first part that has a score decides, or `none` if no part has one.
-fn combined(parts: &[Part], none: f64) -> Value {
+fn combined(parts: &[ResultsPart], none: f64) -> Value {
     let score = parts.iter().find_map(|part| part.score).unwrap_or(none);
     let outputs: Vec<&str> = parts.iter().map(|part| part.output.as_str()).collect();
     let mut tests: Vec<Value> = parts.iter().flat_map(|part| part.tests.clone()).collect();
@@ -133,20 +135,20 @@ fn has_extension(path: &Path, kinds: &[&str]) -> bool {
     kinds.iter().any(|kind| extension == *kind)
 }
 
-fn checked(submission: &Path, arguments: &AutogradeArgs) -> Part {
+fn checked(submission: &Path, arguments: &AutogradeArgs) -> ResultsPart {
     // A submission that runs too long is a fault of its own, well before the grader's time is up.
     let each = (arguments.timeout / 4).clamp(1, 60).to_string();
     let words = ["check", "--quiet", "--format", "gradescope", "--timeout", &each];
     judged("The C++", &words, submission, arguments)
 }
 
-fn graded(submission: &Path, arguments: &AutogradeArgs) -> Part {
+fn graded(submission: &Path, arguments: &AutogradeArgs) -> ResultsPart {
     let words = ["grade", "--submission", "--format", "gradescope"];
     judged("The list or picture", &words, submission, arguments)
 }
 
 /// What the verb in `words` says of `submission`.
-fn judged(what: &str, words: &[&str], submission: &Path, arguments: &AutogradeArgs) -> Part {
+fn judged(what: &str, words: &[&str], submission: &Path, arguments: &AutogradeArgs) -> ResultsPart {
     let mut words: Vec<OsString> = words.iter().map(OsString::from).collect();
     if let Some(policy) = &arguments.policy {
         // The verb runs in another folder.
@@ -155,12 +157,12 @@ fn judged(what: &str, words: &[&str], submission: &Path, arguments: &AutogradeAr
     }
     let result = match run_verb(&words, submission, arguments.timeout) {
         Ok(result) => result,
-        Err(why) => return Part::failed(what, &why),
+        Err(why) => return ResultsPart::failed(what, &why),
     };
     let tests = result["tests"].as_array().cloned().unwrap_or_default();
     let output = result["output"].as_str().unwrap_or_default().to_owned();
     let is_unreadable = result["extra_data"]["verdict"] == "unreadable";
-    Part { score: result["score"].as_f64().filter(|_| !is_unreadable), output, tests }
+    ResultsPart { score: result["score"].as_f64().filter(|_| !is_unreadable), output, tests }
 }
 
 /// Runs this program with `words` and `submission`, and reads the JSON that it prints.

@@ -52,8 +52,8 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     list: Option<PathBuf>,
     /// What to write
-    #[arg(long, value_enum, default_value_t = FormatName::Text)]
-    format: FormatName,
+    #[arg(long, value_enum, default_value_t = CheckFormat::Text)]
+    format: CheckFormat,
     /// A JSON file with a course's own scores, as for grade
     #[arg(long, value_name = "FILE.json")]
     policy: Option<PathBuf>,
@@ -68,7 +68,7 @@ pub struct CheckArgs {
 
 /// The formats of the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FormatName {
+enum CheckFormat {
     /// For people: a few lines for every section
     Text,
     /// For programs: an array with a report for every submission
@@ -81,7 +81,7 @@ enum FormatName {
     Csv,
 }
 
-impl FormatName {
+impl CheckFormat {
     /// The extension of its files, where each submission has one of its own.
     fn of_each(self) -> Option<&'static str> {
         match self {
@@ -150,12 +150,12 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         let report = check(&submission, &kit, &settings).map_err(argument)?;
         let graded = check::grade::grade(&report, &grading, &expectations);
         let output = match arguments.format {
-            FormatName::Html => {
+            CheckFormat::Html => {
                 let name = report.submission.clone();
                 let of_list = grading::submission::Submission { name, ..Default::default() };
                 pages.page(&of_list, &graded)
             }
-            FormatName::Gradescope => json(&gradescope::results(&graded.grade, &grading.policy)),
+            CheckFormat::Gradescope => json(&gradescope::results(&graded.grade, &grading.policy)),
             _ => String::new(),
         };
         if let Some(path) = &arguments.list {
@@ -219,14 +219,14 @@ fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Res
 }
 
 /// All reports in one text.
-fn together(format: FormatName, all: &[Checked], best: f64) -> String {
+fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
     match format {
-        FormatName::Text => {
+        CheckFormat::Text => {
             let texts =
                 all.iter().map(|checked| check::text::text(&checked.report, &checked.grade, best));
             texts.collect::<Vec<_>>().join("\n")
         }
-        FormatName::Json => {
+        CheckFormat::Json => {
             let reports: Vec<_> = all
                 .iter()
                 .map(|Checked { report, grade, .. }| {
@@ -235,11 +235,11 @@ fn together(format: FormatName, all: &[Checked], best: f64) -> String {
                 .collect();
             json(&reports)
         }
-        FormatName::Csv => {
+        CheckFormat::Csv => {
             let lines = all.iter().map(|checked| csv_line(checked) + "\n");
             CSV_HEADER.to_owned() + &lines.collect::<String>()
         }
-        FormatName::Html | FormatName::Gradescope => {
+        CheckFormat::Html | CheckFormat::Gradescope => {
             all.iter().map(|checked| checked.output.as_str()).collect()
         }
     }

@@ -31,7 +31,7 @@ pub struct GradebookArgs {
 
 /// Whose submissions are graded, in the order of the submissions.
 #[derive(Debug, Default)]
-pub struct Class {
+pub struct Roll {
     students: Vec<Option<Student>>,
     absent: Vec<Student>,
     before: BTreeMap<String, Before>,
@@ -63,8 +63,8 @@ impl GradebookArgs {
         &self,
         paths: &[PathBuf],
         handed_in: &mut Vec<HandedIn>,
-    ) -> Result<Class, CliError> {
-        let mut class = Class { is_anonymous: self.anonymous, ..Class::default() };
+    ) -> Result<Roll, CliError> {
+        let mut class = Roll { is_anonymous: self.anonymous, ..Roll::default() };
         if let Some(path) = &self.before {
             class.before = earlier(path)?;
         }
@@ -164,7 +164,7 @@ fn earlier(path: &Path) -> Result<BTreeMap<String, Before>, CliError> {
     Ok(grades.into_iter().map(|grade| (grade.submission.clone(), grade)).collect())
 }
 
-impl Class {
+impl Roll {
     /// Whether no name may be shown.
     pub fn is_anonymous(&self) -> bool {
         self.is_anonymous

@@ -53,8 +53,8 @@ pub struct RenderArgs {
                                 "letter_of_the_handout", "sampler"])]
     photons_from: Option<PathBuf>,
     /// The format of the list
-    #[arg(long, value_enum, default_value_t = FormatName::Ply)]
-    format: FormatName,
+    #[arg(long, value_enum, default_value_t = ListFormat::Ply)]
+    format: ListFormat,
     /// Write no list and draw no picture: only count. Memory does not grow with the number of
     /// photons; `merge` adds up the JSON summaries of adjoining ranges
     #[arg(long, conflicts_with_all = ["photons_from", "format", "size", "out"])]
@@ -73,7 +73,7 @@ pub struct RenderArgs {
 
 /// The names of the list formats.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum FormatName {
+enum ListFormat {
     /// Binary PLY, for MeshLab, CloudCompare and Blender
     Ply,
     /// Comma-separated values, for everything else
@@ -202,8 +202,8 @@ fn trace(
 ) -> Result<(Summary, OutputFile), CliError> {
     let start = Instant::now();
     let (name, format) = match arguments.format {
-        FormatName::Ply => ("photons.ply", Format::Ply),
-        FormatName::Csv => ("photons.csv", Format::Csv),
+        ListFormat::Ply => ("photons.ply", Format::Ply),
+        ListFormat::Csv => ("photons.csv", Format::Csv),
     };
     let mut file = OutputFile::create(&arguments.out.join(name))?;
     let path = file.path().to_owned();

@@ -36,7 +36,7 @@ pub enum Pairing {
 /// in a list that comes out of a tree. So a missing or extra record puts nothing out of step. Time
 /// grows as n log n.
 pub fn align(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Vec<Pairing> {
-    let lists = Lists { reference, submission, tolerance };
+    let lists = AlignedLists { reference, submission, tolerance };
     if !(reference.columns.photon && submission.columns.photon) {
         let all = |list: &PhotonList| (0..list.records.len()).collect::<Vec<_>>();
         let reordered = lists.are_reordered().then(|| lists.by_place(0)).flatten();
@@ -105,13 +105,13 @@ fn group(records: &[PhotonRecord], order: &[usize], start: usize, photon: u32) -
     start..start + order[start..].iter().take_while(belongs).count()
 }
 
-struct Lists<'lists> {
+struct AlignedLists<'lists> {
     reference: &'lists PhotonList,
     submission: &'lists PhotonList,
     tolerance: f32,
 }
 
-impl Lists<'_> {
+impl AlignedLists<'_> {
     /// Pairs the records of one photon, given by their places in the lists.
     fn one_photon(&self, reference: &[usize], submission: &[usize], out: &mut Vec<Pairing>) {
         if !(self.reference.columns.bounce && self.submission.columns.bounce) {

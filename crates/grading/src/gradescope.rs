@@ -14,12 +14,12 @@ pub struct Results<'a> {
     output_format: &'static str,
     visibility: &'static str,
     stdout_visibility: &'static str,
-    tests: Vec<Test<'a>>,
+    tests: Vec<GradescopeTest<'a>>,
     extra_data: &'a Grade,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Test<'a> {
+struct GradescopeTest<'a> {
     name: &'a str,
     /// Only where the policy gives points for this section: 0 of 0 points would look like a loss.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -36,7 +36,7 @@ struct Test<'a> {
 
 /// The results for `grade` by `policy`. Nothing in them differs from run to run.
 pub fn results<'a>(grade: &'a Grade, policy: &Policy) -> Results<'a> {
-    let tests = grade.findings.iter().enumerate().map(|(at, finding)| Test {
+    let tests = grade.findings.iter().enumerate().map(|(at, finding)| GradescopeTest {
         name: finding.check,
         score: points(grade, at, policy).map(|points| points.score),
         max_score: points(grade, at, policy).map(|points| points.most),

@@ -48,7 +48,8 @@ impl Effort {
             FAIR if main.contains(&variation.reading) => self.main,
             FAIR => self.fair,
             _ if misreading.is_none() => self.other,
-            _ if variation.is_fast() => self.fast,
+            // So close to "no-roulette" that the likelier must not be the one measured better.
+            _ if variation.is_fast() || *id == "late-roulette" => self.fast,
             id if WEAK.contains(&id) => self.weak,
             _ => self.other,
         }

@@ -300,3 +300,17 @@ fn the_angle_that_is_even_is_caught_and_named() {
     }
     assert!(named >= 5, "{named}");
 }
+
+#[test]
+fn a_roulette_that_starts_late_is_not_called_none_at_all() {
+    for sure_hits in [2, 4] {
+        let variation = Variation { sure_hits, ..Variation::default() };
+        let list = positions_of(&records(variation, 95, 1_000_000));
+        for emitted in [None, Some(1e6)] {
+            let judgement = judge(&list, emitted, false, &EXPECTATIONS);
+            assert!(!faults(&judgement).is_empty());
+            assert_ne!(name(&judgement), Some("no-roulette"), "{sure_hits} hits");
+            assert!(sure_hits > 2 || name(&judgement) == Some("late-roulette"));
+        }
+    }
+}

@@ -35,7 +35,7 @@ pub fn push_line(text: &mut String, record: &PhotonRecord) {
 }
 
 /// What a list in text starts with.
-pub(super) struct Start {
+pub(super) struct TextStart {
     dialect: Dialect,
     /// The first row, where no names precede it.
     first: Option<(u64, String)>,
@@ -48,7 +48,7 @@ pub(super) struct Start {
 pub(super) fn start(
     lines: &mut Lines<impl BufRead>,
     mut next: Option<(u64, String)>,
-) -> Result<Start, ListError> {
+) -> Result<TextStart, ListError> {
     let path = lines.path;
     let mut of_comment = None;
     let mut comments = 0;
@@ -70,7 +70,7 @@ pub(super) fn start(
                 (_, Some(dialect)) | (Ok(dialect), None) => (dialect, Some((number, line))),
                 (Err(message), None) => return Err(ListError::in_line(path, number, message)),
             };
-            return Ok(Start { dialect, first, count });
+            return Ok(TextStart { dialect, first, count });
         }
         next = lines.next()?.map(|(number, line)| (number, line.into_owned()));
     }
@@ -78,7 +78,7 @@ pub(super) fn start(
         true => ListError::malformed(path, "the file is empty: it has nothing but white space"),
         false => ListError::malformed(path, "expected a photon list, found only comments"),
     })?;
-    Ok(Start { dialect, first: None, count })
+    Ok(TextStart { dialect, first: None, count })
 }
 
 /// Whether `line` tells Excel what is between values.
@@ -90,11 +90,11 @@ fn tells_separator(line: &str) -> bool {
 /// Reads the rows behind `start`.
 pub(super) fn read(
     lines: &mut Lines<impl BufRead>,
-    start: Start,
+    start: TextStart,
     rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
 ) -> Result<Naming, ListError> {
     let path = lines.path;
-    let Start { dialect, first, mut count } = start;
+    let TextStart { dialect, first, mut count } = start;
     let mut records = 0;
     let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
         let line = line.trim();

@@ -7,7 +7,7 @@ use std::path::Path;
 use glam::Vec3;
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
-use super::csv::{self, Start};
+use super::csv::{self, TextStart};
 use super::dialect::Naming;
 use super::error::{ListError, Reason};
 use super::ply::{self, Header};
@@ -164,7 +164,7 @@ type InputLines<'path> = Lines<'path, BufReader<Box<dyn Read>>>;
 /// A list up to its first row.
 pub(super) enum Input<'path> {
     Ply(InputLines<'path>, Header),
-    Text(InputLines<'path>, Start),
+    Text(InputLines<'path>, TextStart),
 }
 
 /// Opens the list `path`, of which at most `most` bytes are read.

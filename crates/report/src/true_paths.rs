@@ -35,20 +35,20 @@ impl TruePaths {
 
     /// Where the hits of `photon`, on the facets `found`, part from the true ones; none if they
     /// never do.
-    pub fn part(&self, photon: u64, found: impl Iterator<Item = usize>) -> Option<Parting> {
+    pub fn part(&self, photon: u64, found: impl Iterator<Item = usize>) -> Option<PathParting> {
         let truth = &self.0[photon as usize];
         let mut found = found.fuse();
         (0..).find_map(|hit| match (truth.get(hit).copied(), found.next()) {
             (None, None) => Some(None),
             (is, was) if is == was => None,
-            (is, was) => Some(Some(Parting { hit, lost: is.is_some(), extra: was.is_some() })),
+            (is, was) => Some(Some(PathParting { hit, lost: is.is_some(), extra: was.is_some() })),
         })?
     }
 }
 
 /// The first hit at which a path is not what it should be; what comes of it says nothing more.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parting {
+pub struct PathParting {
     /// Its number, from 0.
     pub hit: usize,
     /// Whether the path should have gone on to a facet, and did not hit it.
@@ -65,7 +65,7 @@ mod tests {
     fn paths_part_at_the_first_hit_that_differs() {
         let paths = TruePaths(vec![vec![5, 2, 5]]);
         let part = |found: &[usize]| paths.part(0, found.iter().copied());
-        let parting = |hit, lost, extra| Some(Parting { hit, lost, extra });
+        let parting = |hit, lost, extra| Some(PathParting { hit, lost, extra });
         assert_eq!(paths.stored(), 2);
         assert_eq!(part(&[5, 2, 5]), None);
         assert_eq!(part(&[5, 2]), parting(2, true, false));

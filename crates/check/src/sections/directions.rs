@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::sampling::{LAWS, Law};
+use super::sampling::{AngleLaw, LAWS};
 use crate::events::{Call, Trace};
 use crate::plan::{self, Step};
 use crate::run::Observed;
@@ -30,7 +30,7 @@ pub struct Scattered {
 
 /// How tangent space is turned into the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Frame {
+pub enum FrameForm {
     /// t, b and n are the columns, of length 1.
     Normalised,
     /// t and b as equations (7) and (8) have them.
@@ -47,7 +47,7 @@ pub enum Frame {
     None,
 }
 
-impl Frame {
+impl FrameForm {
     /// Whether it is a fair reading of the handout.
     pub fn is_fair(self) -> bool {
         matches!(self, Self::Normalised | Self::AsWritten)
@@ -64,9 +64,9 @@ pub struct Directions {
     /// Over every wall.
     pub walls: Vec<(Vec3, Vec<Scattered>)>,
     /// The frame under which the floor's directions follow a known law; nothing if none does.
-    pub frame_of_floor: Option<Frame>,
+    pub frame_of_floor: Option<FrameForm>,
     /// The law that they follow in that frame, where it is not the cosine.
-    pub law: Option<&'static Law>,
+    pub law: Option<&'static AngleLaw>,
     /// The square of the sine of the floor's directions to the normal, in tangent space.
     pub sines: Vec<f64>,
     /// Whether the floor's directions are even around the normal.
@@ -94,7 +94,7 @@ impl Directions {
         // On the floor, several frames are the same.
         let tried = || {
             candidates.iter().filter(|(frame, _)| {
-                matches!(frame, Frame::Normalised | Frame::Flipped | Frame::OtherOrder)
+                matches!(frame, FrameForm::Normalised | FrameForm::Flipped | FrameForm::OtherOrder)
             })
         };
         let seen: Vec<_> =
@@ -102,7 +102,7 @@ impl Directions {
         // The cosine comes first: what follows it in any frame follows nothing else.
         let laws = std::iter::once(None).chain(LAWS.iter().map(Some));
         let found = laws.into_iter().find_map(|law| {
-            let due = law.map(Law::squared_sines);
+            let due = law.map(AngleLaw::squared_sines);
             let number = seen.iter().position(|[sines, around, above]| {
                 let follows = match &due {
                     Some(due) => are_alike(sines, due),
@@ -152,7 +152,7 @@ impl Directions {
     }
 
     /// The frame that explains the directions over a wall; fair ones come first.
-    pub fn frame_of(&self, normal: Vec3, rays: &[Scattered]) -> Option<Frame> {
+    pub fn frame_of(&self, normal: Vec3, rays: &[Scattered]) -> Option<FrameForm> {
         let candidates = frames(normal);
         let found = candidates.iter().find(|(_, matrix)| self.fits(rays, *matrix));
         found.map(|(frame, _)| *frame)
@@ -175,7 +175,7 @@ fn of_call(call: &Call) -> Option<Scattered> {
 }
 
 /// All frames that are tried over a wall with this normal, with the matrix of each.
-pub fn frames(normal: Vec3) -> Vec<(Frame, Mat3)> {
+pub fn frames(normal: Vec3) -> Vec<(FrameForm, Mat3)> {
     let mut frames = Vec::new();
     let axes = [Vec3::X, Vec3::Y, Vec3::Z];
     let axes: Vec<_> = axes.into_iter().filter(|axis| normal.dot(*axis).abs() < 0.9999).collect();
@@ -189,23 +189,23 @@ pub fn frames(normal: Vec3) -> Vec<(Frame, Mat3)> {
     };
     for axis in &axes {
         let (t, b) = normalised(*axis);
-        frames.push((Frame::Normalised, Mat3::from_cols(t, b, normal)));
+        frames.push((FrameForm::Normalised, Mat3::from_cols(t, b, normal)));
     }
     for axis in &axes {
         let (t, b) = as_written(*axis);
-        frames.push((Frame::AsWritten, Mat3::from_cols(t, b, normal)));
-        frames.push((Frame::HalfAsWritten, Mat3::from_cols(t, b.normalize(), normal)));
+        frames.push((FrameForm::AsWritten, Mat3::from_cols(t, b, normal)));
+        frames.push((FrameForm::HalfAsWritten, Mat3::from_cols(t, b.normalize(), normal)));
     }
     for axis in &axes {
         for (t, b) in [normalised(*axis), as_written(*axis)] {
-            frames.push((Frame::Flipped, Mat3::from_cols(t, b, -normal)));
-            frames.push((Frame::Transposed, Mat3::from_cols(t, b, normal).transpose()));
-            frames.push((Frame::OtherOrder, Mat3::from_cols(t, normal, b)));
-            frames.push((Frame::OtherOrder, Mat3::from_cols(normal, t, b)));
-            frames.push((Frame::OtherOrder, Mat3::from_cols(normal, b, t)));
-            frames.push((Frame::OtherOrder, Mat3::from_cols(b, normal, t)));
+            frames.push((FrameForm::Flipped, Mat3::from_cols(t, b, -normal)));
+            frames.push((FrameForm::Transposed, Mat3::from_cols(t, b, normal).transpose()));
+            frames.push((FrameForm::OtherOrder, Mat3::from_cols(t, normal, b)));
+            frames.push((FrameForm::OtherOrder, Mat3::from_cols(normal, t, b)));
+            frames.push((FrameForm::OtherOrder, Mat3::from_cols(normal, b, t)));
+            frames.push((FrameForm::OtherOrder, Mat3::from_cols(b, normal, t)));
         }
     }
-    frames.push((Frame::None, Mat3::IDENTITY));
+    frames.push((FrameForm::None, Mat3::IDENTITY));
     frames
 }

@@ -17,7 +17,7 @@ const REJECT: &str = "Draw x, y and z again while x^2 + y^2 + z^2 > 1, before yo
 
 /// A law that directions may follow: its name, if it is a known misreading, what it is, and one
 /// draw of it.
-struct Law {
+struct EmissionLaw {
     name: &'static str,
     what: &'static str,
     advice: &'static str,
@@ -54,34 +54,34 @@ fn angles(rand: &mut dyn FnMut() -> f32) -> Vec3 {
     Vec3::new(sine * libm::cosf(phi), sine * libm::sinf(phi), libm::cosf(theta))
 }
 
-const LAWS: [Law; 5] = [
-    Law {
+const LAWS: [EmissionLaw; 5] = [
+    EmissionLaw {
         name: "cube-directions",
         what: "directions come from the whole cube, not from the sphere: there are too many \
                towards its corners",
         advice: REJECT,
         draw: cube,
     },
-    Law {
+    EmissionLaw {
         name: "octant-directions",
         what: "x, y and z are never negative: all photons go into one eighth of the sphere",
         advice: "Scale the random number from [0, 1) to [-1, 1): 2 * u - 1.",
         draw: |rand| ball(rand).abs(),
     },
-    Law {
+    EmissionLaw {
         name: "octant-directions",
         what: "x, y and z are never negative, and come from the whole cube",
         advice: "Scale the random number from [0, 1) to [-1, 1): 2 * u - 1; and draw again while \
                  x^2 + y^2 + z^2 > 1.",
         draw: |rand| cube(rand).abs(),
     },
-    Law {
+    EmissionLaw {
         name: "rejection-reversed",
         what: "points inside the sphere are drawn again, and those outside are kept",
         advice: "Turn the loop's condition around: draw again while x^2 + y^2 + z^2 > 1.",
         draw: outside,
     },
-    Law {
+    EmissionLaw {
         name: "polar-directions",
         what: "theta = pi u1 and phi = 2 pi u2 crowd the directions around the poles",
         advice: "Use the handout's loop over x, y and z.",

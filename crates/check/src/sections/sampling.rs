@@ -1,7 +1,7 @@
 //! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
 
 use super::Verdict;
-use super::directions::{Directions, FEWEST, Frame, Scattered};
+use super::directions::{Directions, FEWEST, FrameForm, Scattered};
 use crate::plan::Step;
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform, mean};
@@ -9,14 +9,14 @@ use variants::section::Section;
 
 /// A law of the angle to the normal: u1 gives the square of its sine.
 #[derive(Debug)]
-pub struct Law {
+pub struct AngleLaw {
     name: &'static str,
     what: &'static str,
     advice: &'static str,
     squared_sine: fn(f64) -> f64,
 }
 
-impl Law {
+impl AngleLaw {
     /// A sample of the squared sine to the normal, as even as can be.
     pub fn squared_sines(&self) -> Vec<f64> {
         let u = (0..20_000).map(|i| (f64::from(i) + 0.5) / 20_000.0);
@@ -25,45 +25,45 @@ impl Law {
 }
 
 /// The laws of known misreadings.
-pub static LAWS: [Law; 7] = [
-    Law {
+pub static LAWS: [AngleLaw; 7] = [
+    AngleLaw {
         name: "uniform-hemisphere",
         what: "directions are uniform over the hemisphere, not in proportion to the cosine",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6): that is a point of \
                  the disk, lifted to the hemisphere.",
         squared_sine: |u| 1.0 - u * u,
     },
-    Law {
+    AngleLaw {
         name: "no-square-root",
         what: "r is u1, not its square root",
         advice: "Equation (2) has r = sqrt(u1).",
         squared_sine: |u| u * u / (u * u + 1.0 - u),
     },
-    Law {
+    AngleLaw {
         name: "no-square-root-of-height",
         what: "z is 1 - u1, not its square root",
         advice: "Equation (6) has z = sqrt(1 - u1).",
         squared_sine: |u| u / (u + (1.0 - u) * (1.0 - u)),
     },
-    Law {
+    AngleLaw {
         name: "no-roots",
         what: "r is u1 and z is 1 - u1, without the square roots",
         advice: "Equations (2) and (6) have r = sqrt(u1) and z = sqrt(1 - u1).",
         squared_sine: |u| u * u / (u * u + (1.0 - u) * (1.0 - u)),
     },
-    Law {
+    AngleLaw {
         name: "linear-angle",
         what: "the angle to the normal is even, as in theta = pi / 2 u1",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
         squared_sine: |u| libm::sin(std::f64::consts::FRAC_PI_2 * u).powi(2),
     },
-    Law {
+    AngleLaw {
         name: "normal-and-ball",
         what: "directions crowd around the normal, as those of n plus a point of the ball do",
         advice: "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).",
         squared_sine: |u| 1.0 - u.sqrt(),
     },
-    Law {
+    AngleLaw {
         name: "roulette-number-again",
         what: "u1 is always below P_r = 0.5: it is the roulette's number, used again",
         advice: "Draw new random numbers for u1 and u2 after the roulette.",
@@ -169,7 +169,7 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
     }
 }
 
-fn law_fault(law: &Law, directions: &Directions, verdict: &mut Verdict) {
+fn law_fault(law: &AngleLaw, directions: &Directions, verdict: &mut Verdict) {
     let cosine = mean_cosine(directions);
     let found =
         format!("{}: the mean cosine to the normal is {cosine:.3}; expected 0.667", law.what);
@@ -188,7 +188,7 @@ fn judge_pairs(directions: &Directions, verdict: &mut Verdict) {
         let d = ray.direction;
         // Around whichever axis the floor's directions lie.
         match directions.frame_of_floor {
-            Some(Frame::OtherOrder) => None,
+            Some(FrameForm::OtherOrder) => None,
             _ => Some(f64::from(libm::atan2f(d.y, d.x))),
         }
     };

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Verdict;
-use super::directions::{Directions, FEWEST, Frame, Scattered};
+use super::directions::{Directions, FEWEST, FrameForm, Scattered};
 use crate::plan::{Step, wall_normals};
 use crate::run::Observed;
 use variants::section::Section;
@@ -51,7 +51,7 @@ pub(super) fn judge(
 fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
     let sampling_is_finite = directions.floor.iter().all(|ray| ray.direction.is_finite());
     let sampling_spreads = directions.sines.iter().any(|sine| *sine > 1e-6);
-    let mut frames: Vec<(Vec3, Option<Frame>)> = Vec::new();
+    let mut frames: Vec<(Vec3, Option<FrameForm>)> = Vec::new();
     for (normal, rays) in directions.walls.iter().filter(|(_, rays)| rays.len() >= FEWEST) {
         let total = rays.len();
         let is_along_x = normal.x.abs() > 0.999;
@@ -91,16 +91,24 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
             frames.push((*normal, directions.frame_of(*normal, rays)));
         }
     }
-    let unfair: Vec<_> =
-        frames.iter().filter(|(_, frame)| !frame.is_some_and(Frame::is_fair)).copied().collect();
+    let unfair: Vec<_> = frames
+        .iter()
+        .filter(|(_, frame)| !frame.is_some_and(FrameForm::is_fair))
+        .copied()
+        .collect();
     if unfair.is_empty() {
         judge_fair(&frames, verdict);
         return;
     }
-    let most =
-        [Frame::Flipped, Frame::Transposed, Frame::None, Frame::OtherOrder, Frame::HalfAsWritten]
-            .into_iter()
-            .max_by_key(|frame| unfair.iter().filter(|(_, other)| *other == Some(*frame)).count());
+    let most = [
+        FrameForm::Flipped,
+        FrameForm::Transposed,
+        FrameForm::None,
+        FrameForm::OtherOrder,
+        FrameForm::HalfAsWritten,
+    ]
+    .into_iter()
+    .max_by_key(|frame| unfair.iter().filter(|(_, other)| *other == Some(*frame)).count());
     let most = most.filter(|frame| {
         let those = unfair.iter().filter(|(_, other)| *other == Some(*frame)).count();
         2 * those > unfair.len()
@@ -112,28 +120,28 @@ fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
         .expect("it is one of the walls");
     let seen = seen(*normal, rays);
     let (name, what, advice) = match most {
-        Some(Frame::Flipped) => (
+        Some(FrameForm::Flipped) => (
             Some("flipped-normal"),
             "photons leave below the surface they hit",
             "Use the normal of state.ComputeNormal() as it is, in the matrix's third column.",
         ),
-        Some(Frame::Transposed) => (
+        Some(FrameForm::Transposed) => (
             Some("transposed-frame"),
             "t, b and n are the rows of the matrix, not its columns",
             COLUMNS,
         ),
-        Some(Frame::None) => (
+        Some(FrameForm::None) => (
             Some("not-transformed"),
             "directions are those of tangent space, whatever the normal",
             "Multiply the matrix of t, b and n by the sampled direction before you trace the ray.",
         ),
-        Some(Frame::HalfAsWritten) => (
+        Some(FrameForm::HalfAsWritten) => (
             Some("half-normalised"),
             "b is normalized, and t is not",
             "Normalize both t and b, or neither: one of them alone squeezes directions to one \
              side.",
         ),
-        Some(Frame::OtherOrder) => {
+        Some(FrameForm::OtherOrder) => {
             (Some("permuted-frame"), "the normal is not the third column of the matrix", COLUMNS)
         }
         _ => (None, "directions are not those of the hemisphere around the normal", FRAME),
@@ -169,9 +177,9 @@ fn short(v: Vec3) -> String {
     format!("({:.2}, {:.2}, {:.2})", v.x, v.y, v.z)
 }
 
-fn judge_fair(frames: &[(Vec3, Option<Frame>)], verdict: &mut Verdict) {
-    let has = |frame: Frame| frames.iter().any(|(_, other)| *other == Some(frame));
-    if has(Frame::AsWritten) {
+fn judge_fair(frames: &[(Vec3, Option<FrameForm>)], verdict: &mut Verdict) {
+    let has = |frame: FrameForm| frames.iter().any(|(_, other)| *other == Some(frame));
+    if has(FrameForm::AsWritten) {
         verdict
             .readings
             .push("t and b as equations (7) and (8) have them, not normalized".to_owned());

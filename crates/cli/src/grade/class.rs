@@ -6,7 +6,7 @@ use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::FormatName;
+use super::GradeFormat;
 use super::files::{INDEX, made_by};
 use crate::error::{CliError, print_whole};
 use crate::gradebook;
@@ -28,12 +28,12 @@ const MANY_RECORDS: usize = 300_000;
 
 /// All that is graded in one run.
 pub struct Class<'a> {
-    pub format: FormatName,
+    pub format: GradeFormat,
     pub settings: &'a Settings,
     pub expectations: &'a Expectations,
     pub pages: Pages<'a>,
     /// Whose submissions they are.
-    pub students: gradebook::Class,
+    pub students: gradebook::Roll,
     /// Where each submission has a file of its own.
     pub folder: Option<PathBuf>,
     /// The names of these files.
@@ -108,12 +108,12 @@ impl Class<'_> {
             try_again.then(|| format!("{}: could not be read: try again", grade.submission));
         let graded = Graded { grade, list, fingerprint, try_again };
         let page = match self.format {
-            FormatName::Html => self.pages.page(&handed_in.submission, &graded),
+            GradeFormat::Html => self.pages.page(&handed_in.submission, &graded),
             _ => String::new(),
         };
         let Graded { grade, fingerprint, .. } = graded;
         let mut kept = Kept { grade, output: page, fingerprint, problem };
-        if self.format == FormatName::Html
+        if self.format == GradeFormat::Html
             && let Some(folder) = &self.folder
         {
             let written = write(&folder.join(&self.files[at]), std::mem::take(&mut kept.output));
@@ -126,7 +126,7 @@ impl Class<'_> {
 
     /// Writes what Gradescope reads, if that is wanted.
     fn write_results(&self, at: usize, kept: &mut Kept) {
-        if self.format != FormatName::Gradescope {
+        if self.format != GradeFormat::Gradescope {
             return;
         }
         let results = json(&gradescope::results(&kept.grade, &self.settings.policy));
@@ -146,19 +146,21 @@ impl Class<'_> {
         let best = self.settings.policy.best();
         let grades: Vec<&Grade> = graded.iter().map(|one| &one.grade).collect();
         let output = match (self.format, grades.as_slice()) {
-            (FormatName::Text, grades) => {
+            (GradeFormat::Text, grades) => {
                 let texts: Vec<_> = grades.iter().map(|grade| text::text(grade, best)).collect();
                 texts.join("\n") + &self.students.text(grades)
             }
-            (FormatName::Csv, grades) => self.students.csv(grades, self.settings.policy.unreadable),
-            (FormatName::Json, [grade]) if is_alone => json(grade),
-            (FormatName::Json, grades) => json(&grades),
-            (FormatName::Gradescope | FormatName::Html, _) => {
+            (GradeFormat::Csv, grades) => {
+                self.students.csv(grades, self.settings.policy.unreadable)
+            }
+            (GradeFormat::Json, [grade]) if is_alone => json(grade),
+            (GradeFormat::Json, grades) => json(&grades),
+            (GradeFormat::Gradescope | GradeFormat::Html, _) => {
                 graded.first().map(|one| one.output.clone()).unwrap_or_default()
             }
         };
         match (&self.folder, out) {
-            (Some(folder), _) if self.format == FormatName::Html => {
+            (Some(folder), _) if self.format == GradeFormat::Html => {
                 let pages = grades.into_iter().zip(self.files.iter().cloned()).collect();
                 let absent = self.students.absent();
                 let made_by = made_by(self.students.is_anonymous());

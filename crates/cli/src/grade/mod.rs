@@ -77,8 +77,8 @@ pub struct GradeArgs {
           allow_negative_numbers = true, value_parser = values::whole(0, u64::MAX))]
     seed: u64,
     /// What to write
-    #[arg(long, value_enum, default_value_t = FormatName::Text)]
-    format: FormatName,
+    #[arg(long, value_enum, default_value_t = GradeFormat::Text)]
+    format: GradeFormat,
     /// A JSON file with a course's own scores, see below
     #[arg(long, value_name = "FILE.json")]
     policy: Option<PathBuf>,
@@ -92,7 +92,7 @@ pub struct GradeArgs {
 
 /// The names of the formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FormatName {
+enum GradeFormat {
     /// For people
     Text,
     /// For programs: an object, or an array for several submissions
@@ -105,7 +105,7 @@ enum FormatName {
     Csv,
 }
 
-impl FormatName {
+impl GradeFormat {
     /// The extension of its files, where each submission has one of its own.
     fn of_each(self) -> Option<&'static str> {
         match self {

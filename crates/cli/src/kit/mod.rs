@@ -16,11 +16,11 @@ use super::output;
 #[derive(Debug, Args)]
 pub struct KitArgs {
     #[command(subcommand)]
-    kit: Kit,
+    kit: KitCommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum Kit {
+enum KitCommand {
     /// A Rust project for students: the reference with the handout's five sections left to write
     #[command(after_help = "\
 Example: photon-mapping kit student --out starter/
@@ -62,8 +62,8 @@ impl KitFile {
 /// When the folder has files already or cannot be written.
 pub fn run(arguments: &KitArgs) -> Result<u8, CliError> {
     let (out, files, advice) = match &arguments.kit {
-        Kit::Student(to) => (&to.out, student::files(), ""),
-        Kit::Gradescope(to) => (&to.out, gradescope::files()?, gradescope::advice()),
+        KitCommand::Student(to) => (&to.out, student::files(), ""),
+        KitCommand::Gradescope(to) => (&to.out, gradescope::files()?, gradescope::advice()),
     };
     write(out, &files)?;
     let count = files.len();

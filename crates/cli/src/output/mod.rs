@@ -70,11 +70,11 @@ pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), CliError> {
 /// A file that is being written.
 pub struct OutputFile {
     path: PathBuf,
-    place: Place,
+    place: Destination,
 }
 
 /// Where the bytes go.
-enum Place {
+enum Destination {
     /// Into a file beside `target`, which it then replaces.
     Beside { file: NamedTempFile, target: PathBuf },
     /// Into a file without a name, then through what stands at the path.
@@ -93,7 +93,7 @@ impl OutputFile {
                 return Err(unwritable(io::ErrorKind::IsADirectory.into()));
             }
             Ok(about) if !about.is_file() || is_of_system(path) => {
-                Place::Through(tempfile::tempfile().map_err(unwritable)?)
+                Destination::Through(tempfile::tempfile().map_err(unwritable)?)
             }
             Ok(about) => {
                 refuse_input(path)?;
@@ -107,11 +107,11 @@ impl OutputFile {
                 let file = beside(&target)?;
                 keep_owner(file.as_file(), &about);
                 file.as_file().set_permissions(about.permissions()).map_err(unwritable)?;
-                Place::Beside { file, target }
+                Destination::Beside { file, target }
             }
             Err(_) => {
                 let target = link_target(path).map_err(unwritable)?;
-                Place::Beside { file: beside(&target)?, target }
+                Destination::Beside { file: beside(&target)?, target }
             }
         };
         Ok(Self { path: path.to_owned(), place })
@@ -125,8 +125,8 @@ impl OutputFile {
     /// What is written to.
     pub fn file(&mut self) -> &mut File {
         match &mut self.place {
-            Place::Beside { file, .. } => file.as_file_mut(),
-            Place::Through(file) => file,
+            Destination::Beside { file, .. } => file.as_file_mut(),
+            Destination::Through(file) => file,
         }
     }
 
@@ -137,10 +137,10 @@ impl OutputFile {
     pub fn persist(self) -> Result<(), CliError> {
         let Self { path, place } = self;
         let written = match place {
-            Place::Beside { file, target } => {
+            Destination::Beside { file, target } => {
                 file.persist(target).map(drop).map_err(|error| error.error)
             }
-            Place::Through(mut file) => file.rewind().and_then(|()| {
+            Destination::Through(mut file) => file.rewind().and_then(|()| {
                 let mut output = OpenOptions::new().write(true).open(&path)?;
                 io::copy(&mut file, &mut output)?;
                 output.flush()

@@ -58,8 +58,8 @@ pub fn of_the_reference(emitted: u64, max_bounces: i32) -> RgbImage {
 /// Where `submission` has more dots than `reference` (orange), and where fewer (blue), both over
 /// `plain`, which has none.
 pub fn difference(submission: &RgbImage, reference: &RgbImage, plain: &RgbImage) -> RgbImage {
-    let ours = Sums::of(reference, plain);
-    let theirs = Sums::of(submission, plain);
+    let ours = DotSums::of(reference, plain);
+    let theirs = DotSums::of(submission, plain);
     let mut picture = RgbImage::new(plain.width(), plain.height());
     for (x, y, pixel) in picture.enumerate_pixels_mut() {
         let (reference, submission) = (ours.around(x, y), theirs.around(x, y));
@@ -99,13 +99,13 @@ pub fn strength(away: f64) -> f64 {
 }
 
 /// How many pixels above and left of each have a dot.
-struct Sums {
+struct DotSums {
     width: usize,
     height: usize,
     sums: Vec<f64>,
 }
 
-impl Sums {
+impl DotSums {
     fn of(picture: &RgbImage, plain: &RgbImage) -> Self {
         let (width, height) = (plain.width() as usize, plain.height() as usize);
         let mut sums = vec![0.0; (width + 1) * (height + 1)];
