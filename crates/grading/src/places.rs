@@ -152,7 +152,7 @@ impl Places {
         Self { facets, surfaces, cells, facet_of_cell, footprints }
     }
 
-    /// By which part of itself the number of photons in `cell` may be off, see [`LEEWAY`].
+    /// By which part of itself the number of photons in `cell` may be off.
     pub fn leeway_of_cell(&self, cell: usize) -> f64 {
         LEEWAY * self.facets[self.facet_of_cell[cell]].divisions as f64
     }
