@@ -199,6 +199,7 @@ pub(super) fn open(path: &Path, most: u64) -> Result<Input<'_>, ListError> {
 ///
 /// # Errors
 /// When `path` is such a pipe.
+#[cfg_attr(not(unix), expect(unused_variables, reason = "pipes with a name are a thing of Unix"))]
 pub fn refuse_pipe(path: &Path) -> Result<(), ListError> {
     #[cfg(unix)]
     if let Ok(about) = fs::metadata(path)

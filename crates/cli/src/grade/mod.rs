@@ -16,8 +16,12 @@ use super::gradebook::GradebookArgs;
 use super::output::{self, protect};
 use super::values;
 use class::Class;
+// What `check` has in common with `grade`, where there is `check`.
+#[cfg(unix)]
 pub use class::json;
-pub use files::{INDEX, file_names, made_by, refuse_others};
+#[cfg(unix)]
+pub use files::{INDEX, made_by};
+pub use files::{file_names, refuse_others};
 use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
 use grading::page::Pages;
