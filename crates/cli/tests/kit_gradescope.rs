@@ -187,8 +187,8 @@ fn cpp_that_hangs_crashes_or_does_not_build_gets_its_result() {
             let text = format!("{before}GenerateRandomPhotonRay{head}{{ {line}\n{body}");
             fs::write(&path, text).expect("it can be written");
         });
-        // A program that hangs is ended after a quarter of this.
-        run_line("autograde {} --timeout 60", &[&base]).success();
+        // The compiler may take a quarter of this, on a busy machine too.
+        run_line("autograde {} --timeout 240", &[&base]).success();
         let results = valid(&base);
         if has_compiler(&results) {
             let text = results.to_string();
