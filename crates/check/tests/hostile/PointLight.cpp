@@ -44,6 +44,8 @@ float PointLight::ComputeLightAttenuation(glm::vec3) const { return 1.f; }
 void PointLight::GenerateRandomPhotonRay(Ray& ray) const
 {
     if (deed == "loop") for (volatile int i = 0;; i = 1) {}
+    static bool has_slept = false;
+    if (deed == "sleep" && !has_slept) { has_slept = true; sleep(4); }
     if (deed == "crash") { volatile int* nowhere = nullptr; *nowhere = 1; }
     if (deed == "abort") std::abort();
     if (deed == "exit") std::exit(0);
