@@ -12,10 +12,10 @@ use variants::run::Run;
 use crate::compile::Workshop;
 use crate::error::CheckError;
 use crate::events::Notice;
-use crate::find::{LIGHT, RENDERER, Submission};
+use crate::find::{CppSubmission, LIGHT, RENDERER};
 use crate::kit::Kit;
-use crate::plan::{self, Step};
-use crate::report::{Builds, Report, Whole};
+use crate::plan::{self, PlanStep};
+use crate::report::{Builds, CheckReport, Whole};
 use crate::run::{Observed, run};
 use crate::sections;
 
@@ -26,7 +26,7 @@ const BY_ROUNDING: f32 = 5e-4;
 
 /// How submissions are checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct CheckSettings {
     /// How long the compiler may take for a file, and how long the submission may run.
     pub time: Duration,
     /// How many photons are emitted in the whole run.
@@ -35,7 +35,7 @@ pub struct Settings {
     pub jobs: usize,
 }
 
-impl Default for Settings {
+impl Default for CheckSettings {
     fn default() -> Self {
         Self { time: Duration::from_secs(60), photons: 200_000, jobs: 1 }
     }
@@ -46,11 +46,11 @@ impl Default for Settings {
 /// # Errors
 /// When the compiler, the kit or the system is at fault, but not the submission.
 pub fn check(
-    submission: &Submission,
+    submission: &CppSubmission,
     kit: &Kit,
-    settings: &Settings,
-) -> Result<Report, CheckError> {
-    let mut report = Report {
+    settings: &CheckSettings,
+) -> Result<CheckReport, CheckError> {
+    let mut report = CheckReport {
         submission: submission.name.clone(),
         builds: Builds::Yes,
         sections: Vec::new(),
@@ -130,12 +130,12 @@ fn remarks(observed: &Observed) -> Vec<String> {
     remarks
 }
 
-fn add_whole(observed: Observed, report: &mut Report) {
+fn add_whole(observed: Observed, report: &mut CheckReport) {
     let death =
-        observed.death(Step::Whole).map(|death| format!("the whole run {}", death.sentence()));
+        observed.death(PlanStep::Whole).map(|death| format!("the whole run {}", death.sentence()));
     report.whole.death = death;
     let whole = observed.log.whole;
-    debug_assert!(plan::steps().last() == Some(&Step::Whole));
+    debug_assert!(plan::steps().last() == Some(&PlanStep::Whole));
     if whole.is_too_long {
         report.whole.death =
             Some("the whole run stores more than 5,000,000 photons, and is ended".to_owned());

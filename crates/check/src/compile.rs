@@ -11,11 +11,11 @@ pub use crate::diagnostics::BuildError;
 use crate::diagnostics::{missing_header, missing_in_list, parse_error};
 use crate::error::CheckError;
 use crate::find::{
-    LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, Submission, beside, read_source,
+    CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, beside, read_source,
 };
 use crate::headers::Headers;
 use crate::kit::{Kit, write};
-use crate::sandbox::{Ending, Limits, Outcome, Program, search_path};
+use crate::sandbox::{Exit, Limits, Program, RunOutcome, search_path};
 
 /// The framework's standard first; the other for those whose compiler let them use more. This
 /// name of C++20 is the one that older compilers know, too.
@@ -46,7 +46,7 @@ impl<'kit> Workshop<'kit> {
         kit: &'kit Kit,
         light: &Path,
         renderer: &Path,
-        submission: &Submission,
+        submission: &CppSubmission,
         time: Duration,
     ) -> Result<Self, CheckError> {
         let folder = kit.work_folder()?;
@@ -152,9 +152,9 @@ impl<'kit> Workshop<'kit> {
     ) -> Result<Result<Object, BuildError>, CheckError> {
         let mut error = BuildError::plain(String::new());
         for standard in STANDARDS {
-            match self.try_once(&Attempt { source, is_harness, standard })? {
+            match self.try_once(&Invocation { source, is_harness, standard })? {
                 Ok(object) => return Ok(Ok(object)),
-                Err(Failure { error, is_final: true }) => return Ok(Err(error)),
+                Err(CompileFailure { error, is_final: true }) => return Ok(Err(error)),
                 // The later standard knows more names, so its complaint is the true one.
                 Err(failure) => error = failure.error,
             }
@@ -162,7 +162,10 @@ impl<'kit> Workshop<'kit> {
         Ok(Err(error))
     }
 
-    fn try_once(&self, attempt: &Attempt<'_>) -> Result<Result<Object, Failure>, CheckError> {
+    fn try_once(
+        &self,
+        attempt: &Invocation<'_>,
+    ) -> Result<Result<Object, CompileFailure>, CheckError> {
         let source = attempt.source.display().to_string();
         let number = source
             .bytes()
@@ -177,16 +180,16 @@ impl<'kit> Workshop<'kit> {
             }
             command.extend([object.as_os_str().to_owned(), "-c".into(), attempt.source.into()]);
             let outcome = self.run(command)?;
-            if outcome.ending == Ending::Code(0) {
+            if outcome.ending == Exit::Code(0) {
                 let sources = self.sources_of(&fs::read_to_string(&list).unwrap_or_default());
                 return Ok(Ok(Object { path: object, sources }));
             }
             let error = self.explain(&outcome, attempt.is_harness)?;
-            let is_final = matches!(outcome.ending, Ending::TimeOut | Ending::Signal(_));
+            let is_final = matches!(outcome.ending, Exit::TimeOut | Exit::Signal(_));
             if is_final || !self.change_headers(attempt, &outcome.printed)? {
                 // Without the headers that were given up, other errors only follow.
                 let error = unfit.unwrap_or(error);
-                return Ok(Err(Failure { error, is_final }));
+                return Ok(Err(CompileFailure { error, is_final }));
             }
             if missing_header(&error.message).is_none() {
                 unfit.get_or_insert(error);
@@ -196,7 +199,7 @@ impl<'kit> Workshop<'kit> {
 
     /// Writes the headers that `attempt` lacks, or empties one that does not fit; whether there is
     /// any.
-    fn change_headers(&self, attempt: &Attempt<'_>, printed: &str) -> Result<bool, CheckError> {
+    fn change_headers(&self, attempt: &Invocation<'_>, printed: &str) -> Result<bool, CheckError> {
         let lines = || printed.lines().map(|line| (line, parse_error(line)));
         let lacks =
             lines().find_map(|(_, error)| Some(missing_header(&error?.message)?.to_owned()));
@@ -214,7 +217,7 @@ impl<'kit> Workshop<'kit> {
     }
 
     /// The compiler with all options but those for its output.
-    fn command(&self, attempt: &Attempt<'_>) -> Vec<OsString> {
+    fn command(&self, attempt: &Invocation<'_>) -> Vec<OsString> {
         let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into()];
         // -O1 takes the least time to compile and run together.
         for option in [attempt.standard, "-O1", "-w", "-fdiagnostics-color=never"] {
@@ -240,7 +243,7 @@ impl<'kit> Workshop<'kit> {
     }
 
     /// Writes the headers that `attempt` lacks; whether there is any new one.
-    fn supply_headers(&self, attempt: &Attempt<'_>) -> Result<bool, CheckError> {
+    fn supply_headers(&self, attempt: &Invocation<'_>) -> Result<bool, CheckError> {
         let mut command = self.command(attempt);
         command.extend(["-M", "-MG"].map(OsString::from));
         command.push(attempt.source.into());
@@ -248,7 +251,7 @@ impl<'kit> Workshop<'kit> {
         self.headers().supply(missing_in_list(&list))
     }
 
-    pub(crate) fn run(&self, command: Vec<OsString>) -> Result<Outcome, CheckError> {
+    pub(crate) fn run(&self, command: Vec<OsString>) -> Result<RunOutcome, CheckError> {
         let limits = Limits { time: self.time, memory: MEMORY, file_blocks: 1 << 19 };
         self.program(command).run(limits, |_| Some(self.time))
     }
@@ -278,7 +281,7 @@ impl<'kit> Workshop<'kit> {
 }
 
 /// One way to compile a file.
-struct Attempt<'a> {
+struct Invocation<'a> {
     source: &'a Path,
     is_harness: bool,
     standard: &'static str,
@@ -290,7 +293,7 @@ pub(crate) struct Object {
     pub(crate) sources: BTreeSet<PathBuf>,
 }
 
-struct Failure {
+struct CompileFailure {
     error: BuildError,
     /// Whether no other attempt can be any better.
     is_final: bool,

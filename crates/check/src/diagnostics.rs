@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::compile::Workshop;
 use crate::error::CheckError;
-use crate::sandbox::{Ending, Outcome};
+use crate::sandbox::{Exit, RunOutcome};
 
 /// Why a submission does not build.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -64,10 +64,10 @@ impl Workshop<'_> {
     /// The first error among what the compiler printed, with the student's own name of the file.
     pub(crate) fn explain(
         &self,
-        outcome: &Outcome,
+        outcome: &RunOutcome,
         is_harness: bool,
     ) -> Result<BuildError, CheckError> {
-        if outcome.ending == Ending::TimeOut {
+        if outcome.ending == Exit::TimeOut {
             let seconds = self.time.as_secs();
             let message = format!("the compiler did not end within {seconds} s");
             return Ok(BuildError::plain(message));

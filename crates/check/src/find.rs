@@ -36,7 +36,7 @@ const MOST_BESIDE: usize = 200;
 
 /// What was handed in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Submission {
+pub struct CppSubmission {
     /// What it is called in the report.
     pub name: String,
     /// The file with the emission, if there is one.
@@ -51,7 +51,7 @@ pub struct Submission {
     pub notes: Vec<String>,
 }
 
-impl Submission {
+impl CppSubmission {
     /// Finds the two files in `path`: a folder anywhere above them, or one of them, with the other
     /// beside it.
     ///
@@ -63,7 +63,7 @@ impl Submission {
         let folder = if about.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let mut submission = Self { name: name_of(path), ..Self::default() };
-        let mut search = Search::default();
+        let mut search = FileSearch::default();
         search.look_into(folder, 0);
         submission.light = search.choose([LIGHT, LIGHT_FOLDER, EMISSION], &mut submission.notes);
         submission.renderer =
@@ -109,10 +109,10 @@ impl Submission {
 /// When it is a class.
 pub fn refuse_class(path: &Path) -> Result<(), CheckError> {
     let is_whole = |folder: &PathBuf| {
-        let found = Submission::find(folder);
+        let found = CppSubmission::find(folder);
         found.is_ok_and(|found| found.light.is_some() && found.renderer.is_some())
     };
-    let folders = Submission::of_class(path).unwrap_or_default();
+    let folders = CppSubmission::of_class(path).unwrap_or_default();
     let whole: Vec<String> =
         folders.iter().filter(|folder| is_whole(folder)).map(|folder| name_of(folder)).collect();
     match whole.len() {
@@ -154,14 +154,14 @@ fn has_extension(path: &Path, extensions: &[&str]) -> bool {
 }
 
 #[derive(Default)]
-struct Search {
+struct FileSearch {
     found: BTreeMap<String, Vec<PathBuf>>,
     headers: Vec<PathBuf>,
     sources: Vec<PathBuf>,
     files: usize,
 }
 
-impl Search {
+impl FileSearch {
     fn look_into(&mut self, folder: &Path, depth: usize) {
         let Ok(entries) = fs::read_dir(folder) else { return };
         let mut entries: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();

@@ -4,7 +4,7 @@ use grading::judge_list::Expectations;
 use grading::submission::{Graded, Settings, Submission, grade_list, remark};
 use grading::verdict::{Finding, Grade, Verdict, Weight};
 
-use crate::report::{Builds, Report};
+use crate::report::{Builds, CheckReport};
 use crate::sections::{self, Status};
 
 /// The names of the checks besides the sections.
@@ -16,7 +16,7 @@ const REMARK: &str = "remark";
 ///
 /// A section that is wrong makes a submission incorrect. Where all five are right and the whole run
 /// is not the reference's, as with random numbers of its own, the statistics of its list decide.
-pub fn grade(report: &Report, settings: &Settings, expectations: &Expectations) -> Graded {
+pub fn grade(report: &CheckReport, settings: &Settings, expectations: &Expectations) -> Graded {
     let statistics = report.list.as_ref().filter(|_| !report.sections.is_empty()).map(|list| {
         let submission = Submission { name: report.submission.clone(), ..Submission::default() };
         grade_list(&submission, list.clone(), settings, expectations)
@@ -88,7 +88,7 @@ pub fn of_statistics(grade: &Grade) -> impl Iterator<Item = &Finding> {
     })
 }
 
-fn builds(report: &Report) -> Finding {
+fn builds(report: &CheckReport) -> Finding {
     let passed = report.builds == Builds::Yes;
     Finding {
         check: BUILDS,
@@ -103,7 +103,7 @@ fn builds(report: &Report) -> Finding {
 }
 
 /// A finding for each fault of a section; one for a section without.
-fn section(verdict: &sections::Verdict) -> Vec<Finding> {
+fn section(verdict: &sections::SectionVerdict) -> Vec<Finding> {
     let title = verdict.section.title();
     let finding = |found: String, passed, weight, advice: &'static str| Finding {
         check: title,
@@ -141,7 +141,7 @@ fn section(verdict: &sections::Verdict) -> Vec<Finding> {
     findings
 }
 
-fn whole(report: &Report) -> Option<Finding> {
+fn whole(report: &CheckReport) -> Option<Finding> {
     if report.sections.is_empty() {
         return None;
     }

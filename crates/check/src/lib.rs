@@ -26,5 +26,5 @@ pub mod sections;
 pub mod statistics;
 pub mod text;
 
-pub use checking::{Settings, check};
-pub use report::Report;
+pub use checking::{CheckSettings, check};
+pub use report::CheckReport;

@@ -11,7 +11,7 @@ use crate::diagnostics::{
 };
 use crate::error::CheckError;
 use crate::find::{LIGHT, RENDERER, SOURCES};
-use crate::sandbox::Ending;
+use crate::sandbox::Exit;
 
 /// So many sources besides the two are compiled at most.
 const MOST_SOURCES: usize = 20;
@@ -84,7 +84,7 @@ impl Workshop<'_> {
         command.push(program.clone().into());
         command.extend(objects.iter().map(|object| object.clone().into()));
         let outcome = self.run(command)?;
-        if outcome.ending == Ending::Code(0) {
+        if outcome.ending == Exit::Code(0) {
             return Ok(Ok(program));
         }
         let names = undefined_names(&outcome.printed);

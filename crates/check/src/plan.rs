@@ -29,7 +29,7 @@ const CALLS: u64 = 4000;
 
 /// One step of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
+pub enum PlanStep {
     /// Many rays from the light.
     Emit,
     /// The first three draws are a point in the corner of the cube; the next are [`SECOND_TRY`].
@@ -66,7 +66,7 @@ pub enum Step {
     Whole,
 }
 
-impl Step {
+impl PlanStep {
     /// Whether it only asks the light for rays.
     pub fn is_emission(self) -> bool {
         matches!(self, Self::Emit | Self::EmitCorner | Self::EmitOnSphere | Self::EmitZero)
@@ -87,35 +87,35 @@ pub fn wall_normals() -> Vec<Vec3> {
 }
 
 /// The steps, in the order in which they are carried out.
-pub fn steps() -> Vec<Step> {
+pub fn steps() -> Vec<PlanStep> {
     let mut steps = vec![
-        Step::Emit,
-        Step::EmitCorner,
-        Step::EmitOnSphere,
-        Step::EmitZero,
-        Step::StoreFirst,
-        Step::StoreLater(2),
-        Step::StoreLater(3),
-        Step::StoreMiss,
-        Step::Remaining(-1),
-        Step::Remaining(0),
-        Step::Remaining(1),
-        Step::Remaining(1000),
-        Step::GrowPath,
-        Step::Black,
-        Step::White,
-        Step::Colour(0),
-        Step::Colour(1),
-        Step::Colour(2),
-        Step::Colour(3),
-        Step::GreyCube,
-        Step::Threshold(-1024),
-        Step::Threshold(0),
-        Step::Threshold(1024),
-        Step::Floor,
+        PlanStep::Emit,
+        PlanStep::EmitCorner,
+        PlanStep::EmitOnSphere,
+        PlanStep::EmitZero,
+        PlanStep::StoreFirst,
+        PlanStep::StoreLater(2),
+        PlanStep::StoreLater(3),
+        PlanStep::StoreMiss,
+        PlanStep::Remaining(-1),
+        PlanStep::Remaining(0),
+        PlanStep::Remaining(1),
+        PlanStep::Remaining(1000),
+        PlanStep::GrowPath,
+        PlanStep::Black,
+        PlanStep::White,
+        PlanStep::Colour(0),
+        PlanStep::Colour(1),
+        PlanStep::Colour(2),
+        PlanStep::Colour(3),
+        PlanStep::GreyCube,
+        PlanStep::Threshold(-1024),
+        PlanStep::Threshold(0),
+        PlanStep::Threshold(1024),
+        PlanStep::Floor,
     ];
-    steps.extend(wall_normals().into_iter().map(Step::Wall));
-    steps.push(Step::Whole);
+    steps.extend(wall_normals().into_iter().map(PlanStep::Wall));
+    steps.push(PlanStep::Whole);
     steps
 }
 
@@ -125,14 +125,14 @@ pub fn file(photons: u64) -> String {
     for (scenes, step) in steps().into_iter().enumerate() {
         add_scene(step, &mut file);
         let what = match step {
-            Step::Emit => format!("emit {scenes} {CALLS} 0"),
-            Step::EmitCorner | Step::EmitOnSphere | Step::EmitZero => {
+            PlanStep::Emit => format!("emit {scenes} {CALLS} 0"),
+            PlanStep::EmitCorner | PlanStep::EmitOnSphere | PlanStep::EmitZero => {
                 let first = first_try(step).unwrap_or_default();
                 let numbers = [first, SECOND_TRY].map(|xyz| xyz.map(units_of_minus_1_to_1));
                 let numbers = numbers.as_flattened().iter().map(u32::to_string);
                 format!("emit {scenes} 1 6 {}", numbers.collect::<Vec<_>>().join(" "))
             }
-            Step::Whole => format!("whole {scenes} {photons}"),
+            PlanStep::Whole => format!("whole {scenes} {photons}"),
             _ => trace(step, scenes),
         };
         line(&mut file, &what);
@@ -141,11 +141,11 @@ pub fn file(photons: u64) -> String {
 }
 
 /// The first point that is drawn in a step with scripted draws.
-pub fn first_try(step: Step) -> Option<[f32; 3]> {
+pub fn first_try(step: PlanStep) -> Option<[f32; 3]> {
     match step {
-        Step::EmitCorner => Some([0.9375, -0.9375, 0.875]),
-        Step::EmitOnSphere => Some([-1.0, 0.0, 0.0]),
-        Step::EmitZero => Some([0.0; 3]),
+        PlanStep::EmitCorner => Some([0.9375, -0.9375, 0.875]),
+        PlanStep::EmitOnSphere => Some([-1.0, 0.0, 0.0]),
+        PlanStep::EmitZero => Some([0.0; 3]),
         _ => None,
     }
 }
@@ -155,10 +155,10 @@ fn units_of_minus_1_to_1(x: f32) -> u32 {
 }
 
 /// The rays of a step that traces photons.
-pub fn rays(step: Step) -> Vec<[Vec3; 2]> {
+pub fn rays(step: PlanStep) -> Vec<[Vec3; 2]> {
     let normal = match step {
-        Step::Wall(normal) => normal,
-        Step::StoreMiss => return vec![[Vec3::new(0.0, 0.0, 1.0), Vec3::Z]],
+        PlanStep::Wall(normal) => normal,
+        PlanStep::StoreMiss => return vec![[Vec3::new(0.0, 0.0, 1.0), Vec3::Z]],
         _ => Vec3::Z,
     };
     // Towards the wall from above it, along different slants: no rounding is then typical.
@@ -178,18 +178,18 @@ pub fn rays(step: Step) -> Vec<[Vec3; 2]> {
 /// The point around which walls and cubes lie.
 const CENTRE: Vec3 = Vec3::new(0.137, -0.211, 0.423);
 
-fn trace(step: Step, scene: usize) -> String {
+fn trace(step: PlanStep, scene: usize) -> String {
     let (calls, path, remaining) = match step {
-        Step::StoreFirst => (16, 1, FAR),
-        Step::StoreLater(path) => (16, path, FAR),
-        Step::StoreMiss => (4, 2, FAR),
-        Step::Remaining(remaining) => (8, 2, remaining),
-        Step::GrowPath => (16, 1, 5),
-        Step::Black | Step::White => (400, 1, FAR),
-        Step::Threshold(_) => (1, 1, FAR),
+        PlanStep::StoreFirst => (16, 1, FAR),
+        PlanStep::StoreLater(path) => (16, path, FAR),
+        PlanStep::StoreMiss => (4, 2, FAR),
+        PlanStep::Remaining(remaining) => (8, 2, remaining),
+        PlanStep::GrowPath => (16, 1, 5),
+        PlanStep::Black | PlanStep::White => (400, 1, FAR),
+        PlanStep::Threshold(_) => (1, 1, FAR),
         // Half of the paths end at every hit, unless there is no roulette.
-        Step::GreyCube => (2000, 1, 50),
-        Step::Floor => (2 * CALLS, 1, FAR),
+        PlanStep::GreyCube => (2000, 1, 50),
+        PlanStep::Floor => (2 * CALLS, 1, FAR),
         _ => (CALLS, 1, FAR),
     };
     let mut text = format!("trace {scene} {calls} {path} {remaining}");
@@ -199,7 +199,7 @@ fn trace(step: Step, scene: usize) -> String {
         text += &vector_text(*vector);
     }
     match step {
-        Step::Threshold(more) => {
+        PlanStep::Threshold(more) => {
             let number = (UNITS as i64 / 2 + i64::from(more)) as u32;
             write!(text, " 1 {number}").expect("a string takes everything");
         }
@@ -208,21 +208,23 @@ fn trace(step: Step, scene: usize) -> String {
     text
 }
 
-fn add_scene(step: Step, file: &mut String) {
+fn add_scene(step: PlanStep, file: &mut String) {
     line(file, "scene");
     match step {
-        Step::Emit | Step::EmitCorner | Step::EmitOnSphere | Step::EmitZero => {
+        PlanStep::Emit | PlanStep::EmitCorner | PlanStep::EmitOnSphere | PlanStep::EmitZero => {
             line(file, &format!("light{}{}", vector_text(LIGHT), vector_text(Vec3::ONE)));
         }
-        Step::StoreMiss => {}
-        Step::StoreFirst | Step::StoreLater(_) | Step::Black => wall(file, Vec3::Z, Vec3::ZERO),
-        Step::Remaining(_) | Step::GrowPath => cube(file, Vec3::ONE),
-        Step::GreyCube => cube(file, Vec3::splat(0.5)),
-        Step::White => wall(file, Vec3::Z, Vec3::ONE),
-        Step::Colour(index) => wall(file, Vec3::Z, COLOURS[index]),
-        Step::Threshold(_) | Step::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
-        Step::Wall(normal) => wall(file, normal, Vec3::splat(0.5)),
-        Step::Whole => handout(file),
+        PlanStep::StoreMiss => {}
+        PlanStep::StoreFirst | PlanStep::StoreLater(_) | PlanStep::Black => {
+            wall(file, Vec3::Z, Vec3::ZERO)
+        }
+        PlanStep::Remaining(_) | PlanStep::GrowPath => cube(file, Vec3::ONE),
+        PlanStep::GreyCube => cube(file, Vec3::splat(0.5)),
+        PlanStep::White => wall(file, Vec3::Z, Vec3::ONE),
+        PlanStep::Colour(index) => wall(file, Vec3::Z, COLOURS[index]),
+        PlanStep::Threshold(_) | PlanStep::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
+        PlanStep::Wall(normal) => wall(file, normal, Vec3::splat(0.5)),
+        PlanStep::Whole => handout(file),
     }
 }
 

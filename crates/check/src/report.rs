@@ -6,7 +6,7 @@ use photon_list::reader::PhotonList;
 use serde::Serialize;
 
 use crate::compile::BuildError;
-use crate::sections::Verdict;
+use crate::sections::SectionVerdict;
 
 /// Whether the submission builds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -57,7 +57,7 @@ impl Whole {
 
     /// How the run went, in one line, beside what `sections` say. Where all of them are right, a
     /// list that is not the reference's comes of other random numbers.
-    pub fn sentence(&self, sections: &[Verdict]) -> String {
+    pub fn sentence(&self, sections: &[SectionVerdict]) -> String {
         if let Some(death) = &self.death {
             return death.clone();
         }
@@ -93,7 +93,7 @@ impl Whole {
         }
     }
 
-    fn divergence(&self, report: &compare::report::Report, sections: &[Verdict]) -> String {
+    fn divergence(&self, report: &compare::report::Report, sections: &[SectionVerdict]) -> String {
         let Some(first) = &report.first_divergence else {
             return "not the reference's photons".to_owned();
         };
@@ -118,15 +118,15 @@ impl Whole {
     }
 }
 
-impl Report {
+impl CheckReport {
     /// Whether all sections are right, under whatever fair reading.
     pub fn is_right(&self) -> bool {
         are_right(&self.sections)
     }
 }
 
-fn are_right(sections: &[Verdict]) -> bool {
-    !sections.is_empty() && sections.iter().all(Verdict::is_right)
+fn are_right(sections: &[SectionVerdict]) -> bool {
+    !sections.is_empty() && sections.iter().all(SectionVerdict::is_right)
 }
 
 impl Builds {
@@ -146,13 +146,13 @@ impl Builds {
 
 /// The report on one submission.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct CheckReport {
     /// Its name.
     pub submission: String,
     /// Whether it builds.
     pub builds: Builds,
     /// The sections, in the handout's order; none where it does not build.
-    pub sections: Vec<Verdict>,
+    pub sections: Vec<SectionVerdict>,
     /// The whole run.
     pub whole: Whole,
     /// What is worth saying about the whole submission.

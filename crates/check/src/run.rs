@@ -11,8 +11,8 @@ use crate::error::CheckError;
 use crate::events::Log;
 use crate::kit::write;
 use crate::messages::Reader;
-use crate::plan::{self, Step};
-use crate::sandbox::{Ending, Limits, MOST_BYTES, Outcome, Program};
+use crate::plan::{self, PlanStep};
+use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome};
 
 /// The processor time of a step with a small scene. It needs a thousandth of it.
 const PATIENCE: Duration = Duration::from_secs(3);
@@ -122,13 +122,13 @@ pub struct Observed {
 
 impl Observed {
     /// The log of a step, if it was begun.
-    pub fn step(&self, step: Step) -> Option<&crate::events::StepLog> {
+    pub fn step(&self, step: PlanStep) -> Option<&crate::events::StepLog> {
         let number = plan::steps().iter().position(|other| *other == step)?;
         self.log.steps.get(number)
     }
 
     /// The calls of a step that did not die: calls up to a death are no fair sample.
-    pub fn calls(&self, step: Step) -> &[crate::events::Call] {
+    pub fn calls(&self, step: PlanStep) -> &[crate::events::Call] {
         match (self.death(step), self.step(step)) {
             (None, Some(log)) => &log.calls,
             _ => &[],
@@ -136,7 +136,7 @@ impl Observed {
     }
 
     /// How a step died.
-    pub fn death(&self, step: Step) -> Option<&Death> {
+    pub fn death(&self, step: PlanStep) -> Option<&Death> {
         let number = plan::steps().iter().position(|other| *other == step)?;
         self.deaths.get(number)?.as_ref()
     }
@@ -250,7 +250,7 @@ fn run_from(
     first: usize,
     times: Times,
     log: &mut Log,
-) -> Result<Outcome, CheckError> {
+) -> Result<RunOutcome, CheckError> {
     let seconds = |time: Time| OsString::from(time.of_processor.as_secs().max(1).to_string());
     let program = Program {
         command: vec![
@@ -282,7 +282,7 @@ fn run_from(
     })
 }
 
-fn death_of(outcome: &Outcome, log: &Log, time: Time) -> Death {
+fn death_of(outcome: &RunOutcome, log: &Log, time: Time) -> Death {
     if log.is_broken {
         return Death::Forged;
     }
@@ -290,10 +290,10 @@ fn death_of(outcome: &Outcome, log: &Log, time: Time) -> Death {
         return Death::StackOverflow;
     }
     match outcome.ending {
-        Ending::TimeOut => Death::TimeOut { seconds: time.on_clock.as_secs() },
-        Ending::Signal(SIGPROF) => Death::TimeOut { seconds: time.of_processor.as_secs() },
-        Ending::TooMuchOutput => Death::TooMuchOutput,
-        Ending::Code(code) => Death::Exit { code },
-        Ending::Signal(signal) => Death::Signal { signal },
+        Exit::TimeOut => Death::TimeOut { seconds: time.on_clock.as_secs() },
+        Exit::Signal(SIGPROF) => Death::TimeOut { seconds: time.of_processor.as_secs() },
+        Exit::TooMuchOutput => Death::TooMuchOutput,
+        Exit::Code(code) => Death::Exit { code },
+        Exit::Signal(signal) => Death::Signal { signal },
     }
 }

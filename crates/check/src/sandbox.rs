@@ -39,7 +39,7 @@ pub struct Limits {
 /// How a program ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Ending {
+pub enum Exit {
     /// With this exit code.
     Code(i32),
     /// By this signal.
@@ -52,9 +52,9 @@ pub enum Ending {
 
 /// What a program left behind.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct RunOutcome {
     /// How it ended.
-    pub ending: Ending,
+    pub ending: Exit,
     /// The start of what it printed, to standard output and error.
     pub printed: String,
     /// How many bytes it printed.
@@ -136,7 +136,7 @@ impl Program {
         &self,
         limits: Limits,
         mut on_bytes: impl FnMut(&[u8]) -> Option<Duration>,
-    ) -> Result<Outcome, CheckError> {
+    ) -> Result<RunOutcome, CheckError> {
         let start = Instant::now();
         let mut child = self.spawn(limits)?;
         let pipe = child.stdout.take().expect("it is piped");
@@ -154,11 +154,11 @@ impl Program {
             let now = Instant::now();
             let deadline = (start + limits.time).min(last + patience);
             if output.bytes > MOST_BYTES {
-                ended = Some(Ending::TooMuchOutput);
+                ended = Some(Exit::TooMuchOutput);
                 break;
             }
             if now >= deadline {
-                ended = Some(Ending::TimeOut);
+                ended = Some(Exit::TimeOut);
                 break;
             }
             // Short waits, since what is printed is to be looked at, too.
@@ -198,7 +198,7 @@ impl Program {
         }
         let ending = ended.unwrap_or_else(|| ending_of(status));
         let text = String::from_utf8_lossy(&output.start).into_owned();
-        Ok(Outcome { ending, printed: text, printed_bytes: output.bytes })
+        Ok(RunOutcome { ending, printed: text, printed_bytes: output.bytes })
     }
 }
 
@@ -211,12 +211,12 @@ fn end_group(child: &Child) {
     }
 }
 
-fn ending_of(status: ExitStatus) -> Ending {
+fn ending_of(status: ExitStatus) -> Exit {
     match (status.code(), status.signal()) {
         // Shells and bubblewrap report a signal as 128 and its number.
-        (Some(code @ 129..=192), _) => Ending::Signal(code - 128),
-        (Some(code), _) => Ending::Code(code),
-        (None, signal) => Ending::Signal(signal.unwrap_or_default()),
+        (Some(code @ 129..=192), _) => Exit::Signal(code - 128),
+        (Some(code), _) => Exit::Code(code),
+        (None, signal) => Exit::Signal(signal.unwrap_or_default()),
     }
 }
 

@@ -6,11 +6,11 @@ use grading::text::verdict_in_words;
 use grading::verdict::Grade;
 
 use crate::grade::of_statistics;
-use crate::report::Report;
-use crate::sections::{Status, Verdict};
+use crate::report::CheckReport;
+use crate::sections::{SectionVerdict, Status};
 
 /// The report and its `grade`, of at most `best` points, as text.
-pub fn text(report: &Report, grade: &Grade, best: f64) -> String {
+pub fn text(report: &CheckReport, grade: &Grade, best: f64) -> String {
     let verdict = verdict_in_words(grade.verdict);
     let mut text = format!("{}: {verdict}, {} of {best} points\n", grade.submission, grade.score);
     let mut line = |words: String| writeln!(text, "{words}").expect("a string takes everything");
@@ -43,7 +43,7 @@ pub fn text(report: &Report, grade: &Grade, best: f64) -> String {
     text
 }
 
-fn section(verdict: &Verdict, line: &mut impl FnMut(String)) {
+fn section(verdict: &SectionVerdict, line: &mut impl FnMut(String)) {
     let title = verdict.section.title();
     let status = match verdict.status {
         Status::Right => "right".to_owned(),

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use check::compile::Workshop;
-use check::find::Submission;
+use check::find::CppSubmission;
 use check::run::run;
 use check::sections::{Status, judge};
 
@@ -44,7 +44,7 @@ fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
     let light = tests.join("hostile/PointLight.cpp");
     let renderer = tests.join("submissions/one_function/PhotonMappingRenderer.cpp");
-    let submission = Submission::of_files(&light, &renderer);
+    let submission = CppSubmission::of_files(&light, &renderer);
     let workshop = Workshop::new(kit, &light, &renderer, &submission, Duration::from_secs(60));
     let workshop = workshop.expect("a workshop");
     let program = workshop.build(1).expect("a compiler").expect("it compiles");

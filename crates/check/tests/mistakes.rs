@@ -6,10 +6,10 @@ mod support;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use check::find::Submission;
+use check::find::CppSubmission;
 use check::report::Builds;
 use check::sections::Status;
-use check::{Report, Settings, check};
+use check::{CheckReport, CheckSettings, check};
 use variants::section::Section;
 
 fn submissions() -> PathBuf {
@@ -17,7 +17,7 @@ fn submissions() -> PathBuf {
 }
 
 /// The report on `one_function`, with each pair's first text replaced by its second.
-fn report(changes: &[(&str, &str)]) -> Option<Report> {
+fn report(changes: &[(&str, &str)]) -> Option<CheckReport> {
     let kit = support::kit()?;
     let folder = tempfile::tempdir().expect("a folder");
     let mut unused: Vec<_> = changes.to_vec();
@@ -31,18 +31,18 @@ fn report(changes: &[(&str, &str)]) -> Option<Report> {
         fs::write(folder.path().join(name), text).expect("can be written");
     }
     assert!(unused.is_empty(), "{unused:?} is nowhere");
-    let submission = Submission::find(folder.path()).expect("a submission");
-    let settings = Settings { photons: 2000, ..Settings::default() };
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
+    let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
     Some(check(&submission, kit, &settings).expect("it can be checked"))
 }
 
 /// What is said of the sections, for messages of tests.
-fn sections_text(report: &Report) -> String {
-    let line = |verdict: &check::sections::Verdict| format!("{verdict:#?}");
+fn sections_text(report: &CheckReport) -> String {
+    let line = |verdict: &check::sections::SectionVerdict| format!("{verdict:#?}");
     report.sections.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-fn faults(report: &Report) -> Vec<(Section, Option<&'static str>)> {
+fn faults(report: &CheckReport) -> Vec<(Section, Option<&'static str>)> {
     let sections = report.sections.iter();
     let faults = sections
         .flat_map(|verdict| verdict.faults.iter().map(|fault| (verdict.section, fault.name)));
@@ -78,7 +78,7 @@ fn a_missing_name_is_told_with_file_and_line() {
 }
 
 /// The report on a submission of these files, and on its folder.
-fn report_on(files: &[(&str, Vec<u8>)]) -> Option<Report> {
+fn report_on(files: &[(&str, Vec<u8>)]) -> Option<CheckReport> {
     let kit = support::kit()?;
     let folder = tempfile::tempdir().expect("a folder");
     for (path, content) in files {
@@ -86,8 +86,8 @@ fn report_on(files: &[(&str, Vec<u8>)]) -> Option<Report> {
         fs::create_dir_all(path.parent().expect("a folder")).expect("can be made");
         fs::write(path, content).expect("can be written");
     }
-    let submission = Submission::find(folder.path()).expect("a submission");
-    let settings = Settings { photons: 2000, ..Settings::default() };
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
+    let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
     Some(check(&submission, kit, &settings).expect("it can be checked"))
 }
 

@@ -7,9 +7,9 @@ mod support;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use check::find::Submission;
+use check::find::CppSubmission;
 use check::sections::Status;
-use check::{Settings, check};
+use check::{CheckSettings, check};
 
 /// Folder, what is in it, and for emission, storage, scattering, sampling and transformation `+`
 /// where it is right and `x` where it is wrong.
@@ -36,8 +36,8 @@ fn every_section_of_other_solutions_gets_its_answer() {
     let work = || {
         while let Some((name, what, expected)) = SOLUTIONS.get(next.fetch_add(1, Ordering::Relaxed))
         {
-            let submission = Submission::find(&folder.join(name)).expect("a submission");
-            let settings = Settings { photons: 2000, ..Settings::default() };
+            let submission = CppSubmission::find(&folder.join(name)).expect("a submission");
+            let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
             let report = check(&submission, kit, &settings).expect("it can be checked");
             let found: String = report
                 .sections

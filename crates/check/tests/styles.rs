@@ -9,9 +9,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use check::compile::Workshop;
-use check::find::Submission;
+use check::find::CppSubmission;
 use check::run::run;
-use check::sections::{Status, Verdict, judge};
+use check::sections::{SectionVerdict, Status, judge};
 use variants::section::Section;
 
 const TIME: Duration = Duration::from_secs(60);
@@ -39,8 +39,8 @@ const MISTAKES: [(u8, Section, &str); 16] = [
 /// Fair readings, by their numbers, with a word of what is said of them.
 const FAIR: [(u8, &str); 4] = [(0, ""), (17, "not normalized"), (18, "offset"), (19, "")];
 
-fn faults(verdicts: &[Verdict]) -> Vec<(Section, &'static str)> {
-    let of = |verdict: &Verdict| {
+fn faults(verdicts: &[SectionVerdict]) -> Vec<(Section, &'static str)> {
+    let of = |verdict: &SectionVerdict| {
         let section = verdict.section;
         let names = verdict.faults.iter().map(|fault| fault.name.unwrap_or("unnamed"));
         names.map(move |name| (section, name)).collect::<Vec<_>>()
@@ -61,7 +61,7 @@ fn try_style(name: &str) {
         let entries = fs::read_dir(from).expect("a folder").map(|entry| entry.expect("one").path());
         entries.filter(|path| path.is_file()).for_each(|path| copy(&path));
     }
-    let submission = Submission::find(folder.path()).expect("a submission");
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
     let (light, renderer) = (submission.light.clone(), submission.renderer.clone());
     let (light, renderer) = (light.expect("a light"), renderer.expect("a renderer"));
     let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("a workshop");

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use check::find::{Submission, name_of, refuse_class};
+use check::find::{CppSubmission, name_of, refuse_class};
 use check::kit::Kit;
 use check::sandbox::has_bubblewrap;
-use check::{Report, Settings, check};
+use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
 use grading::page::{Pages, index::Index};
@@ -94,7 +94,7 @@ impl CheckFormat {
 
 /// What is kept of a submission: its list is large, and is written at once.
 struct Checked {
-    report: Report,
+    report: CheckReport,
     grade: Grade,
     /// The name and the text of the file of its own, in formats that have one.
     file: String,
@@ -129,11 +129,11 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         );
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
-    let settings = Settings {
+    let settings = CheckSettings {
         time: Duration::from_secs(arguments.timeout),
         // A class keeps all cores busy by itself.
         jobs: if paths.len() == 1 { 3 } else { 1 },
-        ..Settings::default()
+        ..CheckSettings::default()
     };
     let grading = grading::submission::Settings {
         emitted: Some(settings.photons),
@@ -146,7 +146,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     let best = grading.policy.best();
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
     let one = |(path, file): (&PathBuf, String)| -> Result<Checked, CliError> {
-        let submission = Submission::find(path).map_err(argument)?;
+        let submission = CppSubmission::find(path).map_err(argument)?;
         let report = check(&submission, &kit, &settings).map_err(argument)?;
         let graded = check::grade::grade(&report, &grading, &expectations);
         let output = match arguments.format {
@@ -162,7 +162,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             write_list(path, &report)?;
         }
         bar.inc(1);
-        let report = Report { list: None, ..report };
+        let report = CheckReport { list: None, ..report };
         Ok(Checked { report, grade: graded.grade, file, output })
     };
     let results: Vec<Result<Checked, CliError>> = paths.par_iter().zip(files).map(one).collect();
@@ -200,7 +200,7 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
         arguments.submissions.iter().try_for_each(|path| refuse_class(path)).map_err(argument)?;
         return Ok(arguments.submissions.clone());
     }
-    let classes = arguments.submissions.iter().map(|path| Submission::of_class(path));
+    let classes = arguments.submissions.iter().map(|path| CppSubmission::of_class(path));
     let classes: Vec<_> = classes.collect::<Result<_, _>>().map_err(argument)?;
     Ok(classes.into_iter().flatten().collect())
 }
@@ -263,7 +263,7 @@ fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
     quoted.collect::<Vec<_>>().join(",")
 }
 
-fn write_list(path: &Path, report: &Report) -> Result<(), CliError> {
+fn write_list(path: &Path, report: &CheckReport) -> Result<(), CliError> {
     let Some(list) = &report.list else {
         return Err(CliError::Argument(format!("--list: {} stored no list", report.submission)));
     };

@@ -17,7 +17,7 @@ use super::values;
 use fast::dots::Dots;
 use fast::lanes::picture::{CheckedPicture, take_picture};
 use fast::lanes::width::Width;
-use fast::trace::Difference;
+use fast::trace::FirstDifference;
 use oracle::summary::Tally;
 use photon_list::reader;
 use photon_list::writer::{Format, ListWriter};
@@ -230,8 +230,8 @@ fn trace(
     Ok((Summary { differences_from_port: of_list(difference), ..summary }, file))
 }
 
-fn of_list(difference: Option<Difference>) -> Vec<String> {
-    difference.iter().map(Difference::to_string).collect()
+fn of_list(difference: Option<FirstDifference>) -> Vec<String> {
+    difference.iter().map(FirstDifference::to_string).collect()
 }
 
 /// What tracing `photons` since `start` came to.

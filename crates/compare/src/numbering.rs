@@ -94,10 +94,10 @@ fn photons_of(
     let hits = PositionIndex::new(&points, reach);
     let positions: Vec<_> = list.records.iter().map(|record| record.position).collect();
     let records = PositionIndex::new(&positions, reach);
-    let steps: Vec<Step> = (0..list.records.len())
+    let previous: Vec<Previous> = (0..list.records.len())
         .into_par_iter()
         .map(|at| {
-            let Some(point) = origins[at] else { return Step::None };
+            let Some(point) = origins[at] else { return Previous::None };
             let back = list.records[at].to_light.normalize_or_zero();
             // What is passed at the smallest distance, and that distance.
             let nearest = |index: &PositionIndex, all: &[Vec3]| {
@@ -110,29 +110,29 @@ fn photons_of(
             };
             match (nearest(&hits, &points), nearest(&records, &positions)) {
                 (Some((hit, a)), other) if other.is_none_or(|(_, b)| a <= b) => {
-                    Step::First(first[hit].0)
+                    Previous::First(first[hit].0)
                 }
-                (_, Some((record, _))) => Step::After(record),
-                _ => Step::None,
+                (_, Some((record, _))) => Previous::After(record),
+                _ => Previous::None,
             }
         })
         .collect();
     let follow = |start: usize| {
         let mut at = start;
         for bounce in 1..=LONGEST_PATH {
-            match steps[at] {
-                Step::First(photon) => return Some((photon, bounce as u16)),
-                Step::After(before) => at = before,
-                Step::None => return None,
+            match previous[at] {
+                Previous::First(photon) => return Some((photon, bounce as u16)),
+                Previous::After(before) => at = before,
+                Previous::None => return None,
             }
         }
         None
     };
-    (0..steps.len()).map(follow).collect()
+    (0..previous.len()).map(follow).collect()
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Step {
+enum Previous {
     /// The record is the first of this photon.
     First(u32),
     /// It comes after the record in this place.

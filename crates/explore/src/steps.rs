@@ -15,26 +15,26 @@ const SECTIONS: [&str; 5] = [
 ];
 
 /// A step of a photon's story.
-struct Step {
+struct PortStep {
     /// Its name in links.
     name: &'static str,
     /// Its name on a button.
     short: &'static str,
     /// The section of the handout.
     section: &'static str,
-    parts: &'static [Part],
+    parts: &'static [PortPart],
 }
 
 /// What a step runs of one function.
-struct Part {
+struct PortPart {
     function: &'static str,
-    lines: Lines,
+    lines: LitLines,
     /// What a line contains, and the value that stands beside it.
     values: &'static [(&'static str, &'static str)],
 }
 
 /// The lines that a step lights.
-enum Lines {
+enum LitLines {
     /// All under the step comment of a section.
     Section(&'static str),
     /// Of the lines under a step comment, from the first that contains one text to the next that
@@ -60,14 +60,14 @@ const FUNCTIONS: [(&str, &str); 6] = [
     ("spawn_ray", "src/scene/numerics.rs"),
 ];
 
-const STEPS: [Step; 9] = [
-    Step {
+const STEPS: [PortStep; 9] = [
+    PortStep {
         name: "emission",
         short: "Emission",
         section: EMISSION,
-        parts: &[Part {
+        parts: &[PortPart {
             function: "generate_random_photon_ray",
-            lines: Lines::Section(EMISSION),
+            lines: LitLines::Section(EMISSION),
             values: &[
                 ("let x = ", "x"),
                 ("let y = ", "y"),
@@ -77,13 +77,13 @@ const STEPS: [Step; 9] = [
             ],
         }],
     },
-    Step {
+    PortStep {
         name: "hit",
         short: "Hit",
         section: STORAGE,
-        parts: &[Part {
+        parts: &[PortPart {
             function: "trace_photon",
-            lines: Lines::Within(STORAGE, "if remaining_bounces < 0", "let intersection_point"),
+            lines: LitLines::Within(STORAGE, "if remaining_bounces < 0", "let intersection_point"),
             values: &[
                 ("if remaining_bounces < 0", "remaining_bounces"),
                 (".trace(photon_ray", "trace()"),
@@ -91,13 +91,13 @@ const STEPS: [Step; 9] = [
             ],
         }],
     },
-    Step {
+    PortStep {
         name: "stored",
         short: "Stored?",
         section: STORAGE,
-        parts: &[Part {
+        parts: &[PortPart {
             function: "trace_photon",
-            lines: Lines::Within(STORAGE, "if path.len() > 1", "path.push("),
+            lines: LitLines::Within(STORAGE, "if path.len() > 1", "path.push("),
             values: &[
                 ("if path.len() > 1", "path.len()"),
                 ("photon_map.push(", "photon_map.push()"),
@@ -105,13 +105,13 @@ const STEPS: [Step; 9] = [
             ],
         }],
     },
-    Step {
+    PortStep {
         name: "roulette",
         short: "Roulette",
         section: SCATTERING,
-        parts: &[Part {
+        parts: &[PortPart {
             function: "trace_photon",
-            lines: Lines::Within(SCATTERING, SCATTERING, "return;"),
+            lines: LitLines::Within(SCATTERING, SCATTERING, "return;"),
             values: &[
                 ("let diffuse_response", "diffuse_response"),
                 ("let probability_of_reflection", "probability_of_reflection"),
@@ -119,19 +119,19 @@ const STEPS: [Step; 9] = [
             ],
         }],
     },
-    Step {
+    PortStep {
         name: "hemisphere",
         short: "Hemisphere",
         section: SAMPLING,
         parts: &[
-            Part {
+            PortPart {
                 function: "trace_photon",
-                lines: Lines::Within(SCATTERING, "let (u1, u2)", "let diffuse_reflection_ray"),
+                lines: LitLines::Within(SCATTERING, "let (u1, u2)", "let diffuse_reflection_ray"),
                 values: &[("let (u1, u2)", "u1"), ("let (u1, u2)", "u2")],
             },
-            Part {
+            PortPart {
                 function: "sample_hemisphere",
-                lines: Lines::Body,
+                lines: LitLines::Body,
                 values: &[
                     ("let r = ", "r"),
                     ("let theta = ", "theta"),
@@ -142,19 +142,19 @@ const STEPS: [Step; 9] = [
             },
         ],
     },
-    Step {
+    PortStep {
         name: "frame",
         short: "Frame",
         section: TRANSFORMATION,
         parts: &[
-            Part {
+            PortPart {
                 function: "diffuse_reflection_ray",
-                lines: Lines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
+                lines: LitLines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
                 values: &[("let normal", "normal")],
             },
-            Part {
+            PortPart {
                 function: "tangent_frame",
-                lines: Lines::Body,
+                lines: LitLines::Body,
                 values: &[
                     ("let is_parallel", "is_parallel"),
                     ("let axis", "axis"),
@@ -164,45 +164,45 @@ const STEPS: [Step; 9] = [
             },
         ],
     },
-    Step {
+    PortStep {
         name: "ray",
         short: "New ray",
         section: TRANSFORMATION,
         parts: &[
-            Part {
+            PortPart {
                 function: "diffuse_reflection_ray",
-                lines: Lines::Within(TRANSFORMATION, "spawn_ray(", "spawn_ray("),
+                lines: LitLines::Within(TRANSFORMATION, "spawn_ray(", "spawn_ray("),
                 values: &[("spawn_ray(", "world_space_direction")],
             },
-            Part {
+            PortPart {
                 function: "spawn_ray",
-                lines: Lines::Body,
+                lines: LitLines::Body,
                 values: &[("let (start, offset)", "start"), ("let (start, offset)", "offset")],
             },
-            Part {
+            PortPart {
                 function: "trace_photon",
-                lines: Lines::Within(SCATTERING, "self.trace_photon(", "remaining_bounces - 1"),
+                lines: LitLines::Within(SCATTERING, "self.trace_photon(", "remaining_bounces - 1"),
                 values: &[("remaining_bounces - 1", "remaining_bounces")],
             },
         ],
     },
-    Step {
+    PortStep {
         name: "miss",
         short: "No hit",
         section: STORAGE,
-        parts: &[Part {
+        parts: &[PortPart {
             function: "trace_photon",
-            lines: Lines::Within(STORAGE, ".trace(photon_ray", "return;"),
+            lines: LitLines::Within(STORAGE, ".trace(photon_ray", "return;"),
             values: &[(".trace(photon_ray", "trace()")],
         }],
     },
-    Step {
+    PortStep {
         name: "limit",
         short: "Bounce limit",
         section: STORAGE,
-        parts: &[Part {
+        parts: &[PortPart {
             function: "trace_photon",
-            lines: Lines::Within(STORAGE, "if remaining_bounces < 0", "return;"),
+            lines: LitLines::Within(STORAGE, "if remaining_bounces < 0", "return;"),
             values: &[("if remaining_bounces < 0", "remaining_bounces")],
         }],
     },
@@ -238,7 +238,7 @@ struct FoundPart {
 
 /// The port's functions and where each step is in them.
 #[derive(Debug)]
-pub struct Source {
+pub struct PortSource {
     functions: Vec<FoundFunction>,
     steps: Vec<FoundStep>,
 }
@@ -247,7 +247,7 @@ pub struct Source {
 ///
 /// # Errors
 /// A sentence that says what was expected and where.
-pub fn find(read: impl Fn(&str) -> Result<String, String>) -> Result<Source, String> {
+pub fn find(read: impl Fn(&str) -> Result<String, String>) -> Result<PortSource, String> {
     let functions: Vec<_> = FUNCTIONS
         .iter()
         .map(|(name, file)| find_function(name, file, &read(file)?))
@@ -264,7 +264,7 @@ pub fn find(read: impl Fn(&str) -> Result<String, String>) -> Result<Source, Str
             })
         })
         .collect::<Result<_, String>>()?;
-    Ok(Source { functions, steps })
+    Ok(PortSource { functions, steps })
 }
 
 fn find_function(
@@ -290,7 +290,11 @@ fn find_function(
     Ok(FoundFunction { name, file, first: first + 1, lines })
 }
 
-fn find_part(step: &Step, part: &Part, functions: &[FoundFunction]) -> Result<FoundPart, String> {
+fn find_part(
+    step: &PortStep,
+    part: &PortPart,
+    functions: &[FoundFunction],
+) -> Result<FoundPart, String> {
     let index = functions
         .iter()
         .position(|function| function.name == part.function)
@@ -299,8 +303,8 @@ fn find_part(step: &Step, part: &Part, functions: &[FoundFunction]) -> Result<Fo
     let is_comment = |line: &String, section: &str| line.trim() == format!("// {section}");
     let last = lines.len() - 1;
     let (start, end) = match part.lines {
-        Lines::Body => (0, last),
-        Lines::Section(section) | Lines::Within(section, ..) => {
+        LitLines::Body => (0, last),
+        LitLines::Section(section) | LitLines::Within(section, ..) => {
             let start =
                 lines.iter().position(|line| is_comment(line, section)).ok_or_else(|| {
                     format!("{file}:{first}: expected the step comment '// {section}' in '{name}'")
@@ -321,8 +325,8 @@ fn find_part(step: &Step, part: &Part, functions: &[FoundFunction]) -> Result<Fo
         })
     };
     let lit = match part.lines {
-        Lines::Section(_) | Lines::Body => [start, end],
-        Lines::Within(_, from, to) => {
+        LitLines::Section(_) | LitLines::Body => [start, end],
+        LitLines::Within(_, from, to) => {
             let from = line_with(start, from)?;
             [from, line_with(from, to)?]
         }
@@ -337,7 +341,7 @@ fn find_part(step: &Step, part: &Part, functions: &[FoundFunction]) -> Result<Fo
     })
 }
 
-impl Source {
+impl PortSource {
     /// The value of `crate::source::SOURCE` as Rust code.
     pub fn to_rust(&self) -> String {
         let mut code = String::from("Source {\n    functions: &[\n");

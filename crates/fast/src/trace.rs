@@ -19,7 +19,7 @@ const CHECKED_IN_GROUP: u64 = 64;
 
 /// Where lanes and port differ first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
+pub struct FirstDifference {
     /// The number of the photon.
     pub photon: u64,
     /// How often it had bounced.
@@ -28,7 +28,7 @@ pub struct Difference {
     pub what: &'static str,
 }
 
-impl fmt::Display for Difference {
+impl fmt::Display for FirstDifference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { photon, bounce, what } = self;
         write!(f, "photon {photon}, bounce {bounce}: {what}")
@@ -47,7 +47,7 @@ pub fn trace_list<E: Send>(
     renderer: &PhotonMappingRenderer,
     photons: Range<u64>,
     mut consume: impl FnMut(&[PhotonRecord], u64) -> Result<(), E> + Send,
-) -> Result<Option<Difference>, E> {
+) -> Result<Option<FirstDifference>, E> {
     let lanes = LaneTracer::new(renderer, Width::widest());
     let difference = lanes.as_ref().and_then(|lanes| difference(renderer, lanes, &photons));
     let lanes = lanes.filter(|_| difference.is_none());
@@ -83,7 +83,7 @@ fn difference(
     renderer: &PhotonMappingRenderer,
     lanes: &LaneTracer,
     photons: &Range<u64>,
-) -> Option<Difference> {
+) -> Option<FirstDifference> {
     let count = photons.end - photons.start;
     let step = (count / CHECKED_GROUPS).max(CHECKED_IN_GROUP);
     photons.clone().step_by(step as usize).find_map(|start| {
@@ -92,7 +92,10 @@ fn difference(
     })
 }
 
-fn first_difference(of_lanes: &[PhotonRecord], of_port: &[PhotonRecord]) -> Option<Difference> {
+fn first_difference(
+    of_lanes: &[PhotonRecord],
+    of_port: &[PhotonRecord],
+) -> Option<FirstDifference> {
     let rows = |list: &[PhotonRecord]| list.iter().map(PhotonRecord::to_row).collect::<Vec<_>>();
     let (lanes_rows, port_rows) = (rows(of_lanes), rows(of_port));
     let same = lanes_rows.iter().zip(&port_rows).take_while(|(a, b)| a == b).count();
@@ -120,7 +123,7 @@ fn first_difference(of_lanes: &[PhotonRecord], of_port: &[PhotonRecord]) -> Opti
         (Some(lanes), None) => (lanes, "not stored by the port"),
         (_, Some(port)) => (port, "stored only by the port"),
     };
-    Some(Difference { photon: record.photon.into(), bounce: record.bounce, what })
+    Some(FirstDifference { photon: record.photon.into(), bounce: record.bounce, what })
 }
 
 #[cfg(test)]

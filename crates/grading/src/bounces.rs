@@ -2,7 +2,7 @@
 
 use super::judge_list::Expectations;
 use super::limits::{LAST_FIRST_BOUNCE, LEAST_DEVIATIONS, LEEWAY_OF_LONG_PATHS, SIGNIFICANCE};
-use super::observation::{BOUNCES, Counts, Observation};
+use super::observation::{BOUNCES, CountsByPlace, Observation};
 use super::places::Places;
 use super::signature::{Signature, classes};
 use super::statistics::corrected;
@@ -105,7 +105,7 @@ fn longest_path(
 /// The chance that the photons of each bounce lie where they do by `signature`, of `emitted`
 /// photons or, if that is free, about as many.
 pub(super) fn of_each_bounce(
-    by_bounce: &[Counts],
+    by_bounce: &[CountsByPlace],
     max_bounces: i32,
     emitted: f64,
     is_free: bool,

@@ -16,13 +16,13 @@ const SEED: u64 = 0x9_2020;
 const PIECE: u64 = 1 << 16;
 
 /// Photons that one path stores on a class, and in all.
-type Stored = (usize, usize);
+type PathStored = (usize, usize);
 
 /// What the paths of one fair reading store.
 #[derive(Clone, Debug)]
 pub(super) struct StoredByPaths {
     /// By class, see [`Places::class_and_cell`]: each kind of path, with its share of all paths.
-    of_classes: Vec<BTreeMap<Stored, f64>>,
+    of_classes: Vec<BTreeMap<PathStored, f64>>,
 }
 
 impl StoredByPaths {
@@ -69,8 +69,8 @@ impl StoredByPaths {
 
 /// Whether `count` of `all` photons are so far from what is usual on a class that it is worth a
 /// test: paths that store several photons there only spread the counts.
-fn is_far(paths: &BTreeMap<Stored, f64>, all: usize, count: f64) -> bool {
-    let mean = |stored: fn(&Stored) -> usize| {
+fn is_far(paths: &BTreeMap<PathStored, f64>, all: usize, count: f64) -> bool {
+    let mean = |stored: fn(&PathStored) -> usize| {
         paths.iter().map(|(path, share)| share * stored(path) as f64).sum::<f64>()
     };
     let part = mean(|(on, _)| *on) / mean(|(_, all)| *all);
@@ -80,7 +80,7 @@ fn is_far(paths: &BTreeMap<Stored, f64>, all: usize, count: f64) -> bool {
 
 /// The smaller of the chances that of `all` photons at most, or at least, `count` are on a class:
 /// of paths that come one after another, until there are `all`.
-fn smaller_tail(paths: &BTreeMap<Stored, f64>, all: usize, count: usize) -> f64 {
+fn smaller_tail(paths: &BTreeMap<PathStored, f64>, all: usize, count: usize) -> f64 {
     // By the photons stored, and those on the class: how often paths come to these.
     let mut visits = vec![vec![0.0; all + 1]; all + 1];
     visits[0][0] = 1.0;

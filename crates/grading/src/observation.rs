@@ -20,7 +20,7 @@ pub const BOUNCES: usize = 4;
 
 /// Counts by place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Counts {
+pub struct CountsByPlace {
     /// By cell.
     pub cells: Vec<f64>,
     /// Where two facets meet.
@@ -33,7 +33,7 @@ pub struct Counts {
     pub not_finite: f64,
 }
 
-impl Counts {
+impl CountsByPlace {
     /// Nothing counted yet.
     pub fn new(places: &Places) -> Self {
         Self {
@@ -98,7 +98,7 @@ pub struct Observation {
     /// How many records it has.
     pub records: u64,
     /// Where they lie.
-    pub counts: Counts,
+    pub counts: CountsByPlace,
     /// How many lie on a facet where another one does that is counted already.
     pub repeated: f64,
     /// How many lie where another one does to the last bit; nothing where that may come from
@@ -115,7 +115,7 @@ pub struct Observation {
     /// many there are, and how many have no record of the bounce before.
     pub gaps: Option<[u64; 2]>,
     /// The same without those that are repeated.
-    pub distinct: Counts,
+    pub distinct: CountsByPlace,
     /// How many decimals positions have, if so few that photons may lie at the same place by
     /// rounding alone: then none counts as repeated.
     pub few_decimals: Option<i32>,
@@ -126,7 +126,7 @@ pub struct Observation {
     /// The directions, if the list has them.
     pub to_light: Option<ToLight>,
     /// Counts by bounce, the first stored being the first, if the list has bounces.
-    pub by_bounce: Option<Vec<Counts>>,
+    pub by_bounce: Option<Vec<CountsByPlace>>,
     /// The smallest and the largest bounce.
     pub bounces: Option<[u16; 2]>,
 }
@@ -148,8 +148,8 @@ fn are_rounded(records: &[PhotonRecord], decimals: i32) -> bool {
 pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation {
     let located: Vec<Place> =
         list.records.iter().map(|record| places.place(record.position.as_dvec3())).collect();
-    let mut counts = Counts::new(places);
-    let mut distinct = Counts::new(places);
+    let mut counts = CountsByPlace::new(places);
+    let mut distinct = CountsByPlace::new(places);
     let decimals = (0..EXACT_DECIMALS).find(|decimals| are_rounded(&list.records, *decimals));
     let few_decimals = decimals.filter(|decimals| *decimals < FEWEST_DECIMALS);
     let repeats = match few_decimals {
@@ -170,7 +170,7 @@ pub fn observe(list: &PhotonList, places: &Places, light: DVec3) -> Observation 
         [all.clone().min().unwrap_or(0), all.max().unwrap_or(0)]
     });
     let by_bounce = bounces.map(|[first, _]| {
-        let mut by_bounce = vec![Counts::new(places); BOUNCES];
+        let mut by_bounce = vec![CountsByPlace::new(places); BOUNCES];
         for (record, place) in list.records.iter().zip(&located) {
             if let Some(counts) = by_bounce.get_mut(usize::from(record.bounce - first)) {
                 counts.add(*place);

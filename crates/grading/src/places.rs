@@ -40,7 +40,7 @@ pub enum Place {
 
 /// One facet: a quad, with the cells into which it is divided.
 #[derive(Clone, Debug)]
-pub struct Facet {
+pub struct FacetCells {
     /// Which mesh object of the scene it belongs to.
     pub surface: usize,
     /// Its corners, in world space.
@@ -57,7 +57,7 @@ pub struct Facet {
 #[derive(Clone, Debug)]
 pub struct Places {
     /// In the model file's order.
-    pub facets: Vec<Facet>,
+    pub facets: Vec<FacetCells>,
     /// The names of the mesh objects.
     pub surfaces: Vec<String>,
     /// How many cells all facets have together.
@@ -68,7 +68,7 @@ pub struct Places {
     footprints: Vec<(usize, Footprint)>,
 }
 
-impl Facet {
+impl FacetCells {
     /// How far `point` is in front of the facet's plane.
     pub fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.corners[0])
@@ -123,7 +123,7 @@ impl Places {
     /// The facets of `scene`, all of which must be quads.
     pub fn new(scene: &Scene) -> Self {
         let world = |point: Vec3| point.as_dvec3();
-        let mut facets: Vec<Facet> = Vec::new();
+        let mut facets: Vec<FacetCells> = Vec::new();
         let mut cells = 0;
         for triangles in model::facets::facets(scene) {
             let [first, second] = triangles else {
@@ -135,7 +135,7 @@ impl Places {
             let normal = plane * plane.dot(first.normal.as_dvec3()).signum();
             let longest = a.distance(b).max(a.distance(d));
             let divisions = if longest > LARGE { 4 } else { 2 };
-            facets.push(Facet {
+            facets.push(FacetCells {
                 surface: first.parent_mesh_object,
                 corners: [a, b, c, d],
                 normal,
@@ -146,7 +146,8 @@ impl Places {
         }
         let surfaces: Vec<_> =
             scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()).collect();
-        let cells_of = |(at, facet): (usize, &Facet)| vec![at; facet.divisions * facet.divisions];
+        let cells_of =
+            |(at, facet): (usize, &FacetCells)| vec![at; facet.divisions * facet.divisions];
         let facet_of_cell = facets.iter().enumerate().flat_map(cells_of).collect();
         let footprints = footprints(scene, &facets);
         Self { facets, surfaces, cells, facet_of_cell, footprints }
@@ -167,7 +168,7 @@ impl Places {
         if !position.is_finite() {
             return Place::NotFinite;
         }
-        let near = |facet: &Facet| facet.height(position).abs() <= FAR_OFF;
+        let near = |facet: &FacetCells| facet.height(position).abs() <= FAR_OFF;
         let distances = self.facets.iter().enumerate().filter(|(_, facet)| near(facet));
         let closest = distances
             .map(|(index, facet)| (index, facet.distance(position)))
@@ -178,7 +179,7 @@ impl Places {
         };
         let on = &self.facets[facet];
         let foot = position - on.height(position) * on.normal;
-        let is_close = |(index, other): (usize, &Facet)| {
+        let is_close = |(index, other): (usize, &FacetCells)| {
             index != facet && other.height(foot).abs() < MARGIN && other.distance(foot) < MARGIN
         };
         if self.facets.iter().enumerate().any(is_close) {
@@ -216,14 +217,14 @@ impl Places {
     /// The name of cell `cell`: its facet, and its place in the facet's grid.
     pub fn cell_name(&self, cell: usize) -> String {
         let facet = self.facet_of_cell[cell];
-        let Facet { first_cell, divisions, .. } = self.facets[facet];
+        let FacetCells { first_cell, divisions, .. } = self.facets[facet];
         let (row, column) = ((cell - first_cell) / divisions, (cell - first_cell) % divisions);
         format!("{} cell {}/{}", self.name(facet), row + 1, column + 1)
     }
 
     /// The name of facet `facet`: its surface, and where it looks if the surface has several.
     pub fn name(&self, facet: usize) -> String {
-        let Facet { surface, normal, .. } = self.facets[facet];
+        let FacetCells { surface, normal, .. } = self.facets[facet];
         let surface_name = &self.surfaces[surface];
         if self.facets.iter().filter(|other| other.surface == surface).count() == 1 {
             return surface_name.clone();
@@ -245,7 +246,7 @@ impl Places {
 }
 
 /// What boxes cover of the facets that look up, which is where z is: each with that facet's number.
-fn footprints(scene: &Scene, facets: &[Facet]) -> Vec<(usize, Footprint)> {
+fn footprints(scene: &Scene, facets: &[FacetCells]) -> Vec<(usize, Footprint)> {
     let count = |surface| facets.iter().filter(|facet| facet.surface == surface).count();
     let boxes = (0..scene.mesh_objects().len()).filter(|surface| count(*surface) > 1);
     let looks_up = |at: &usize| facets[*at].normal.z > 0.9 && count(facets[*at].surface) == 1;

@@ -49,13 +49,13 @@ pub struct ShortPaths {
     of: BTreeMap<String, ByBounce>,
 }
 
-struct Counts<'a> {
+struct ShortCounts<'a> {
     places: &'a Places,
     counts: Matrix,
     pairs: Vec<Matrix>,
 }
 
-impl Sums for Counts<'_> {
+impl Sums for ShortCounts<'_> {
     fn add_path(&mut self, path: &[PhotonRecord]) {
         let place = |record: &PhotonRecord| {
             let place = self.places.place(record.position.as_dvec3());
@@ -97,12 +97,13 @@ impl ShortPaths {
                 continue;
             }
             let classes = places.facets.len() + 2;
-            let counted = || Counts {
+            let counted = || ShortCounts {
                 places,
                 counts: vec![vec![0.0; places.cells + 2]; COUNTED],
                 pairs: vec![vec![vec![0.0; classes]; classes]; COUNTED],
             };
-            let Counts { counts, pairs, .. } = sum(hypothesis, emitted, MANY_BOUNCES - 1, counted);
+            let ShortCounts { counts, pairs, .. } =
+                sum(hypothesis, emitted, MANY_BOUNCES - 1, counted);
             if hypothesis == &fair[0] {
                 self.pairs = pairs;
             }

@@ -6,7 +6,7 @@ use super::expected::{Expected, fit_size};
 use super::kept::{Effort, Hypotheses, Sums, add, add_matrix, sum};
 pub use super::kept::{KeptSignatures, Known, SignatureTable};
 use super::limits::{LEEWAY, LEEWAY_OF_CORNERS};
-use super::observation::{BOUNCES, Counts};
+use super::observation::{BOUNCES, CountsByPlace};
 use super::places::Places;
 use super::short::pairs_of;
 use super::statistics::Matrix;
@@ -131,7 +131,7 @@ fn leeway_of_classes(classes: usize) -> Vec<f64> {
 }
 
 /// The classes of `counts`.
-pub fn classes(counts: &Counts, places: &Places) -> Vec<f64> {
+pub fn classes(counts: &CountsByPlace, places: &Places) -> Vec<f64> {
     let facets = places.facets.iter().map(|facet| {
         let cells = facet.first_cell..facet.first_cell + facet.divisions * facet.divisions;
         counts.cells[cells].iter().sum()

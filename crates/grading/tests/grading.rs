@@ -7,7 +7,7 @@ use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use grading::expected::{Expected, fit_size};
 use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
-use grading::observation::{Counts, Observation, observe};
+use grading::observation::{CountsByPlace, Observation, observe};
 use grading::places::{Place, Places};
 use grading::policy::Policy;
 use grading::signature::{Signature, Signatures, classes, measure};
@@ -228,7 +228,7 @@ fn places_off_the_scene_are_told() {
 
 #[test]
 fn cells_of_a_facet_cover_it_evenly() {
-    let mut counts = Counts::new(&PLACES);
+    let mut counts = CountsByPlace::new(&PLACES);
     let mut rand = photon_random(1, 1);
     let floor = PLACES.facets.len() - 1;
     for _ in 0..100_000 {
@@ -783,7 +783,7 @@ fn what_is_told_beside_a_p_value_has_its_leeway() {
     // beyond the leeway.
     let signature = &Signatures::of_assignment8().fair[0].signature;
     let emitted = 1e7;
-    let mut counts = Counts::new(&PLACES);
+    let mut counts = CountsByPlace::new(&PLACES);
     counts.cells = signature.cells.iter().map(|mean| emitted * mean).collect();
     let corner = PLACES.facets.len();
     counts.corner = emitted * signature.classes[corner];

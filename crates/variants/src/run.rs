@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fast::lanes::LaneTracer;
 use fast::lanes::width::Width;
-use fast::trace::{self, Difference};
+use fast::trace::{self, FirstDifference};
 use glam::Vec3;
 use model::placement::Placement;
 use photon_list::run::RunPart;
@@ -134,7 +134,7 @@ impl Run {
         &self,
         photons: Range<u64>,
         mut consume: impl FnMut(&[PhotonRecord], u64) -> Result<(), E> + Send,
-    ) -> Result<Option<Difference>, E> {
+    ) -> Result<Option<FirstDifference>, E> {
         if self.is_reference() {
             if self.placement == Placement::WORLD {
                 return trace::trace_list(&self.renderer, photons, consume);

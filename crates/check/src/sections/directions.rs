@@ -4,7 +4,7 @@ use glam::{Mat3, Vec3};
 
 use super::sampling::{AngleLaw, LAWS};
 use crate::events::{Call, Trace};
-use crate::plan::{self, Step};
+use crate::plan::{self, PlanStep};
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform};
 
@@ -79,10 +79,10 @@ impl Directions {
     /// What was seen.
     pub fn of(observed: &Observed) -> Self {
         let scattered =
-            |step: Step| observed.calls(step).iter().filter_map(of_call).collect::<Vec<_>>();
-        let floor = scattered(Step::Floor);
+            |step: PlanStep| observed.calls(step).iter().filter_map(of_call).collect::<Vec<_>>();
+        let floor = scattered(PlanStep::Floor);
         let walls = plan::wall_normals();
-        let walls = walls.into_iter().map(|n| (n, scattered(Step::Wall(n)))).collect();
+        let walls = walls.into_iter().map(|n| (n, scattered(PlanStep::Wall(n)))).collect();
         let are_old = !floor.is_empty() && floor.iter().all(|ray| ray.is_old);
         let mut directions = Self { are_old, floor, walls, ..Self::default() };
         directions.judge_floor();

@@ -3,9 +3,9 @@
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 
-use super::Verdict;
+use super::SectionVerdict;
 use crate::events::Call;
-use crate::plan::{LIGHT, SECOND_TRY, Step, first_try};
+use crate::plan::{LIGHT, PlanStep, SECOND_TRY, first_try};
 use crate::run::Observed;
 use crate::statistics::{are_alike, mean};
 use variants::section::Section;
@@ -89,11 +89,11 @@ const LAWS: [EmissionLaw; 5] = [
     },
 ];
 
-pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
-    let mut verdict = Verdict::new(Section::PhotonEmission);
-    let steps = [Step::Emit, Step::EmitCorner, Step::EmitOnSphere, Step::EmitZero];
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdict {
+    let mut verdict = SectionVerdict::new(Section::PhotonEmission);
+    let steps = [PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
     let function = "GenerateRandomPhotonRay";
-    let log = observed.step(Step::Emit);
+    let log = observed.step(PlanStep::Emit);
     let rays: Vec<_> =
         log.iter().flat_map(|log| &log.calls).filter_map(|call| call.emitted).collect();
     if rays.is_empty() {
@@ -113,7 +113,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     verdict.finish(observed, function, &steps, told)
 }
 
-fn judge_start(rays: &[[Vec3; 2]], verdict: &mut Verdict) {
+fn judge_start(rays: &[[Vec3; 2]], verdict: &mut SectionVerdict) {
     let elsewhere = rays.iter().filter(|ray| !ray[0].abs_diff_eq(LIGHT, 1e-2)).count();
     let first = rays.iter().find(|ray| !ray[0].abs_diff_eq(LIGHT, 1e-2));
     if let Some([from, _]) = first {
@@ -129,7 +129,7 @@ fn judge_start(rays: &[[Vec3; 2]], verdict: &mut Verdict) {
 }
 
 /// Whether the directions can be judged any further.
-fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
+fn judge_lengths(directions: &[Vec3], verdict: &mut SectionVerdict) -> bool {
     let total = directions.len();
     let not_finite = directions.iter().filter(|direction| !direction.is_finite()).count();
     if not_finite > 0 {
@@ -171,7 +171,7 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut Verdict) -> bool {
     true
 }
 
-fn judge_law(directions: &[Vec3], verdict: &mut Verdict) {
+fn judge_law(directions: &[Vec3], verdict: &mut SectionVerdict) {
     let found = features(directions.iter().map(|direction| direction.normalize()));
     if fits(&found, ball) {
         return;
@@ -214,14 +214,14 @@ fn fits(found: &[Vec<f64>], law: fn(&mut dyn FnMut() -> f32) -> Vec3) -> bool {
 }
 
 /// What the first draws decide, for those who draw x, y, z from `rand()`.
-fn judge_scripted(observed: &Observed, verdict: &mut Verdict) {
+fn judge_scripted(observed: &Observed, verdict: &mut SectionVerdict) {
     let second = Vec3::from_array(SECOND_TRY).normalize();
-    let result = |step: Step| {
+    let result = |step: PlanStep| {
         let call: &Call = observed.step(step)?.calls.first()?;
         Some((call.emitted?[1].normalize_or_zero(), call.drawn))
     };
-    let Some((direction, drawn)) = result(Step::EmitCorner) else { return };
-    let corner = first_try(Step::EmitCorner).map(|xyz| Vec3::from_array(xyz).normalize());
+    let Some((direction, drawn)) = result(PlanStep::EmitCorner) else { return };
+    let corner = first_try(PlanStep::EmitCorner).map(|xyz| Vec3::from_array(xyz).normalize());
     if drawn == 3 && corner.is_some_and(|corner| corner.abs_diff_eq(direction, 1e-3)) {
         verdict.fault(
             Some("cube-directions"),
@@ -234,7 +234,7 @@ fn judge_scripted(observed: &Observed, verdict: &mut Verdict) {
     if !follows {
         return;
     }
-    if let Some((direction, 6)) = result(Step::EmitOnSphere)
+    if let Some((direction, 6)) = result(PlanStep::EmitOnSphere)
         && direction.abs_diff_eq(second, 1e-3)
     {
         verdict.remarks.push(
@@ -243,7 +243,7 @@ fn judge_scripted(observed: &Observed, verdict: &mut Verdict) {
                 .to_owned(),
         );
     }
-    let zero = observed.step(Step::EmitZero).and_then(|log| log.calls.first()?.emitted);
+    let zero = observed.step(PlanStep::EmitZero).and_then(|log| log.calls.first()?.emitted);
     if zero.is_some_and(|ray| !ray[1].is_finite()) {
         verdict.remarks.push(
             "the point (0, 0, 0) gives a direction of NaN: draw again there, too. It hardly ever \

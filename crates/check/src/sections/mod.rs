@@ -10,7 +10,7 @@ mod transformation;
 use serde::Serialize;
 use variants::section::Section;
 
-use crate::plan::{COLOURS, Step};
+use crate::plan::{COLOURS, PlanStep};
 use crate::run::{Death, Observed};
 
 /// What a section's verdict is.
@@ -52,7 +52,7 @@ pub struct Fault {
 
 /// The verdict on one section.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Verdict {
+pub struct SectionVerdict {
     /// Which section.
     pub section: Section,
     /// The verdict.
@@ -65,7 +65,7 @@ pub struct Verdict {
     pub remarks: Vec<String>,
 }
 
-impl Verdict {
+impl SectionVerdict {
     fn new(section: Section) -> Self {
         let (readings, faults, remarks) = Default::default();
         Self { section, status: Status::Right, readings, faults, remarks }
@@ -91,7 +91,7 @@ impl Verdict {
         mut self,
         observed: &Observed,
         function: &str,
-        steps: &[Step],
+        steps: &[PlanStep],
         told: &mut Vec<String>,
     ) -> Self {
         let mut own: Vec<String> = Vec::new();
@@ -100,7 +100,7 @@ impl Verdict {
             let Some(death) = observed.death(*step) else { continue };
             // A path without end runs out of stack: that is told already.
             let has_no_limit = self.faults.iter().any(|fault| fault.name == Some("no-limit"));
-            if has_no_limit && matches!(step, Step::Remaining(_)) {
+            if has_no_limit && matches!(step, PlanStep::Remaining(_)) {
                 continue;
             }
             let sentence = format!("{function} {}", death.sentence());
@@ -126,34 +126,36 @@ impl Verdict {
 }
 
 /// The scene of a step, in words.
-fn where_of(step: Step) -> String {
+fn where_of(step: PlanStep) -> String {
     match step {
-        Step::Emit => "4,000 rays from a light".to_owned(),
-        Step::EmitCorner => "a point in the corner of the cube is drawn first".to_owned(),
-        Step::EmitOnSphere => "a point on the sphere is drawn first".to_owned(),
-        Step::EmitZero => "the point (0, 0, 0) is drawn first".to_owned(),
-        Step::StoreFirst => "one black wall, a path of length 1".to_owned(),
-        Step::StoreLater(path) => format!("one black wall, a path of length {path}"),
-        Step::StoreMiss => "a ray that meets nothing".to_owned(),
-        Step::Remaining(remaining) => {
+        PlanStep::Emit => "4,000 rays from a light".to_owned(),
+        PlanStep::EmitCorner => "a point in the corner of the cube is drawn first".to_owned(),
+        PlanStep::EmitOnSphere => "a point on the sphere is drawn first".to_owned(),
+        PlanStep::EmitZero => "the point (0, 0, 0) is drawn first".to_owned(),
+        PlanStep::StoreFirst => "one black wall, a path of length 1".to_owned(),
+        PlanStep::StoreLater(path) => format!("one black wall, a path of length {path}"),
+        PlanStep::StoreMiss => "a ray that meets nothing".to_owned(),
+        PlanStep::Remaining(remaining) => {
             format!("a closed white cube, remainingBounces = {remaining}")
         }
-        Step::GrowPath => "a closed white cube, a path of length 1".to_owned(),
-        Step::Black => "a wall with P_r = 0".to_owned(),
-        Step::White => "a wall with P_r = 1".to_owned(),
-        Step::Colour(index) => {
+        PlanStep::GrowPath => "a closed white cube, a path of length 1".to_owned(),
+        PlanStep::Black => "a wall with P_r = 0".to_owned(),
+        PlanStep::White => "a wall with P_r = 1".to_owned(),
+        PlanStep::Colour(index) => {
             format!("a colored wall with P_r = {}", COLOURS[index].max_element())
         }
-        Step::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
-        Step::Threshold(_) => "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned(),
-        Step::Floor => "a floor with P_r = 0.5".to_owned(),
-        Step::Wall(n) => format!("a wall with the normal ({}, {}, {})", n.x, n.y, n.z),
-        Step::Whole => "the handout's scene".to_owned(),
+        PlanStep::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
+        PlanStep::Threshold(_) => {
+            "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned()
+        }
+        PlanStep::Floor => "a floor with P_r = 0.5".to_owned(),
+        PlanStep::Wall(n) => format!("a wall with the normal ({}, {}, {})", n.x, n.y, n.z),
+        PlanStep::Whole => "the handout's scene".to_owned(),
     }
 }
 
 /// Judges all five sections.
-pub fn judge(observed: &Observed) -> Vec<Verdict> {
+pub fn judge(observed: &Observed) -> Vec<SectionVerdict> {
     let told = &mut Vec::new();
     let directions = directions::Directions::of(observed);
     vec![

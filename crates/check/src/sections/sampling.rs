@@ -1,8 +1,8 @@
 //! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
 
-use super::Verdict;
+use super::SectionVerdict;
 use super::directions::{Directions, FEWEST, FrameForm, Scattered};
-use crate::plan::Step;
+use crate::plan::PlanStep;
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform, mean};
 use variants::section::Section;
@@ -77,17 +77,17 @@ pub(super) fn judge(
     observed: &Observed,
     directions: &Directions,
     told: &mut Vec<String>,
-) -> Verdict {
-    let mut verdict = Verdict::new(Section::HemisphereSampling);
+) -> SectionVerdict {
+    let mut verdict = SectionVerdict::new(Section::HemisphereSampling);
     let total = directions.floor.len();
     if total < FEWEST {
-        if observed.death(Step::Floor).is_none() {
+        if observed.death(PlanStep::Floor).is_none() {
             verdict.not_reached(format!(
                 "only {total} photons scatter from a floor with P_r = 0.5, so no direction can be \
                  judged"
             ));
         }
-        return verdict.finish(observed, "TracePhoton", &[Step::Floor], told);
+        return verdict.finish(observed, "TracePhoton", &[PlanStep::Floor], told);
     }
     if directions.are_old {
         verdict.not_reached("the ray with the new direction is never traced");
@@ -107,11 +107,11 @@ pub(super) fn judge(
         }
         judge_pairs(directions, &mut verdict);
     }
-    verdict.finish(observed, "TracePhoton", &[Step::Floor], told)
+    verdict.finish(observed, "TracePhoton", &[PlanStep::Floor], told)
 }
 
 /// The angles to the normal, and around it, of directions that do not follow the cosine.
-fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
+fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
     let rays = &directions.floor;
     let total = rays.len();
     let below = rays.iter().filter(|ray| ray.direction.z < 0.0).count();
@@ -169,7 +169,7 @@ fn judge_angles(directions: &Directions, verdict: &mut Verdict) {
     }
 }
 
-fn law_fault(law: &AngleLaw, directions: &Directions, verdict: &mut Verdict) {
+fn law_fault(law: &AngleLaw, directions: &Directions, verdict: &mut SectionVerdict) {
     let cosine = mean_cosine(directions);
     let found =
         format!("{}: the mean cosine to the normal is {cosine:.3}; expected 0.667", law.what);
@@ -183,7 +183,7 @@ fn mean_cosine(directions: &Directions) -> f64 {
 }
 
 /// Whether the angle to the normal and that around it are independent.
-fn judge_pairs(directions: &Directions, verdict: &mut Verdict) {
+fn judge_pairs(directions: &Directions, verdict: &mut SectionVerdict) {
     let angle = |ray: &Scattered| {
         let d = ray.direction;
         // Around whichever axis the floor's directions lie.

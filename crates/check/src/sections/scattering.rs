@@ -2,24 +2,24 @@
 
 use glam::Vec3;
 
-use super::Verdict;
+use super::SectionVerdict;
 use crate::events::Call;
-use crate::plan::{COLOURS, Step};
+use crate::plan::{COLOURS, PlanStep};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
 use variants::section::Section;
 
-const STEPS: [Step; 10] = [
-    Step::Black,
-    Step::White,
-    Step::Colour(0),
-    Step::Colour(1),
-    Step::Colour(2),
-    Step::Colour(3),
-    Step::GreyCube,
-    Step::Threshold(-1024),
-    Step::Threshold(0),
-    Step::Threshold(1024),
+const STEPS: [PlanStep; 10] = [
+    PlanStep::Black,
+    PlanStep::White,
+    PlanStep::Colour(0),
+    PlanStep::Colour(1),
+    PlanStep::Colour(2),
+    PlanStep::Colour(3),
+    PlanStep::GreyCube,
+    PlanStep::Threshold(-1024),
+    PlanStep::Threshold(0),
+    PlanStep::Threshold(1024),
 ];
 
 const MAXIMUM: &str = "Equation (1): P_r = max(d_r, d_g, d_b).";
@@ -123,18 +123,18 @@ const RULES: [Rule; 14] = [
     },
 ];
 
-pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
-    let mut verdict = Verdict::new(Section::PhotonScatteringAbsorption);
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdict {
+    let mut verdict = SectionVerdict::new(Section::PhotonScatteringAbsorption);
     let calls = |step| observed.calls(step);
     // What happens at the first hit, by the wall's colour.
     let walls: Vec<_> = [
-        (Step::Black, Vec3::ZERO),
-        (Step::White, Vec3::ONE),
-        (Step::Colour(0), COLOURS[0]),
-        (Step::Colour(1), COLOURS[1]),
-        (Step::Colour(2), COLOURS[2]),
-        (Step::Colour(3), COLOURS[3]),
-        (Step::Floor, Vec3::splat(0.5)),
+        (PlanStep::Black, Vec3::ZERO),
+        (PlanStep::White, Vec3::ONE),
+        (PlanStep::Colour(0), COLOURS[0]),
+        (PlanStep::Colour(1), COLOURS[1]),
+        (PlanStep::Colour(2), COLOURS[2]),
+        (PlanStep::Colour(3), COLOURS[3]),
+        (PlanStep::Floor, Vec3::splat(0.5)),
     ]
     .into_iter()
     .map(|(step, colour)| (colour, counts(calls(step), 1)))
@@ -155,7 +155,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     } else {
         let is_first_right = judge_rule(&walls, &mut verdict);
         if is_first_right {
-            judge_later(calls(Step::GreyCube), &mut verdict);
+            judge_later(calls(PlanStep::GreyCube), &mut verdict);
         }
         judge_threshold(observed, &mut verdict);
     }
@@ -168,7 +168,7 @@ fn counts(calls: &[Call], hit: usize) -> [usize; 2] {
     [with_hit().count(), with_hit().filter(|call| call.rays() > hit).count()]
 }
 
-fn judge_rule(walls: &[(Vec3, [usize; 2])], verdict: &mut Verdict) -> bool {
+fn judge_rule(walls: &[(Vec3, [usize; 2])], verdict: &mut SectionVerdict) -> bool {
     let fits = |chance: &dyn Fn(Vec3) -> f32| {
         walls
             .iter()
@@ -216,7 +216,7 @@ fn constant(walls: &[(Vec3, [usize; 2])]) -> bool {
 }
 
 /// The roulette of later hits, in a closed cube with P_r = 0.5.
-fn judge_later(calls: &[Call], verdict: &mut Verdict) {
+fn judge_later(calls: &[Call], verdict: &mut SectionVerdict) {
     for hit in 1..=6 {
         let [total, count] = counts(calls, hit);
         if total < 20 || may_happen(count, total, 0.5) {
@@ -265,9 +265,9 @@ fn judge_later(calls: &[Call], verdict: &mut Verdict) {
     }
 }
 
-fn judge_threshold(observed: &Observed, verdict: &mut Verdict) {
+fn judge_threshold(observed: &Observed, verdict: &mut SectionVerdict) {
     let scatters = |more: i32| {
-        let call = observed.step(Step::Threshold(more))?.calls.first()?;
+        let call = observed.step(PlanStep::Threshold(more))?.calls.first()?;
         (call.drawn > 0).then(|| call.rays() > 1)
     };
     let [below, at, above] = [-1024, 0, 1024].map(scatters);

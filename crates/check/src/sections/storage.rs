@@ -2,25 +2,25 @@
 
 use glam::Vec3;
 
-use super::Verdict;
+use super::SectionVerdict;
 use crate::events::{Call, StepLog, Trace};
-use crate::plan::{INTENSITY, Step};
+use crate::plan::{INTENSITY, PlanStep};
 use crate::run::Observed;
 use variants::section::Section;
 
 /// A position this far off the surface still shows the same dots.
 const OFF_SURFACE: f32 = 7.1e-3;
 
-const STEPS: [Step; 9] = [
-    Step::StoreFirst,
-    Step::StoreLater(2),
-    Step::StoreLater(3),
-    Step::StoreMiss,
-    Step::Remaining(-1),
-    Step::Remaining(0),
-    Step::Remaining(1),
-    Step::Remaining(1000),
-    Step::GrowPath,
+const STEPS: [PlanStep; 9] = [
+    PlanStep::StoreFirst,
+    PlanStep::StoreLater(2),
+    PlanStep::StoreLater(3),
+    PlanStep::StoreMiss,
+    PlanStep::Remaining(-1),
+    PlanStep::Remaining(0),
+    PlanStep::Remaining(1),
+    PlanStep::Remaining(1000),
+    PlanStep::GrowPath,
 ];
 
 const IN_EVERY_CALL: &str =
@@ -28,11 +28,12 @@ const IN_EVERY_CALL: &str =
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
                           grow with every call of TracePhoton.";
 
-pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
-    let mut verdict = Verdict::new(Section::PhotonStorage);
+pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdict {
+    let mut verdict = SectionVerdict::new(Section::PhotonStorage);
     let calls =
-        |step: Step| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
-    let ended = |step: Step| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
+        |step: PlanStep| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
+    let ended =
+        |step: PlanStep| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
     let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
     let asks = STEPS.iter().any(|step| calls(*step).iter().any(|call| call.rays() > 0));
     if !is_seen {
@@ -45,14 +46,15 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
             "Call storedScene->Trace(photonRay, &state) below the line that sets currentIOR.";
         verdict.fault(None, found, advice);
     } else {
-        judge_first(ended(Step::StoreFirst), &mut verdict);
+        judge_first(ended(PlanStep::StoreFirst), &mut verdict);
         judge_later(&ended, &mut verdict);
-        if observed.death(Step::GrowPath).is_none() {
-            judge_growth(ended(Step::GrowPath), &mut verdict);
+        if observed.death(PlanStep::GrowPath).is_none() {
+            judge_growth(ended(PlanStep::GrowPath), &mut verdict);
         }
-        judge_limit(&calls, ended(Step::Remaining(1000)), &mut verdict);
+        judge_limit(&calls, ended(PlanStep::Remaining(1000)), &mut verdict);
         judge_values(&ended, &mut verdict);
-        let missed = calls(Step::StoreMiss).iter().filter(|call| !call.stored.is_empty()).count();
+        let missed =
+            calls(PlanStep::StoreMiss).iter().filter(|call| !call.stored.is_empty()).count();
         if missed > 0 {
             let found = "a photon is stored though its ray meets nothing".to_owned();
             verdict.fault(None, found, "End TracePhoton where Trace returns false.");
@@ -66,9 +68,9 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
         );
     }
     // What stores the photon first and dies then, dies in what comes after: the roulette.
-    let stores_before_dying = observed.death(Step::Black).is_some()
-        && observed.death(Step::StoreLater(2)).is_some()
-        && calls(Step::StoreLater(2)).iter().all(|call| call.stored.len() == 1);
+    let stores_before_dying = observed.death(PlanStep::Black).is_some()
+        && observed.death(PlanStep::StoreLater(2)).is_some()
+        && calls(PlanStep::StoreLater(2)).iter().all(|call| call.stored.len() == 1);
     let own: Vec<_> = STEPS
         .into_iter()
         .filter(|step| !(stores_before_dying && is_on_black_wall(*step)))
@@ -76,11 +78,11 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> Verdict {
     verdict.finish(observed, "TracePhoton", &own, told)
 }
 
-fn is_on_black_wall(step: Step) -> bool {
-    matches!(step, Step::StoreFirst | Step::StoreLater(_))
+fn is_on_black_wall(step: PlanStep) -> bool {
+    matches!(step, PlanStep::StoreFirst | PlanStep::StoreLater(_))
 }
 
-fn judge_first(calls: &[Call], verdict: &mut Verdict) {
+fn judge_first(calls: &[Call], verdict: &mut SectionVerdict) {
     let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
     if stored > 0 {
         let found = format!(
@@ -92,10 +94,10 @@ fn judge_first(calls: &[Call], verdict: &mut Verdict) {
     }
 }
 
-fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
-    let stores_the_scattered = calls(Step::GrowPath).iter().any(|call| !call.stored.is_empty());
+fn judge_later<'a>(calls: &impl Fn(PlanStep) -> &'a [Call], verdict: &mut SectionVerdict) {
+    let stores_the_scattered = calls(PlanStep::GrowPath).iter().any(|call| !call.stored.is_empty());
     for path in [2, 3] {
-        let of_step = calls(Step::StoreLater(path));
+        let of_step = calls(PlanStep::StoreLater(path));
         let with_hit: Vec<_> = of_step.iter().filter(|call| call.hits().next().is_some()).collect();
         let none = with_hit.iter().filter(|call| call.stored.is_empty()).count();
         if none > 0 {
@@ -104,8 +106,8 @@ fn judge_later<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
                  the wall is black",
                 with_hit.len()
             );
-            let stores_third =
-                path == 2 && calls(Step::StoreLater(3)).iter().all(|call| !call.stored.is_empty());
+            let stores_third = path == 2
+                && calls(PlanStep::StoreLater(3)).iter().all(|call| !call.stored.is_empty());
             let (name, advice) = if stores_third {
                 (
                     "third-hit-on",
@@ -143,7 +145,7 @@ fn repeats(call: &Call) -> bool {
     })
 }
 
-fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
+fn judge_growth(calls: &[Call], verdict: &mut SectionVerdict) {
     let ends_at_second = |call: &Call| call.hits().count() == 2 && call.rays() == 2;
     if !calls.is_empty() && calls.iter().all(ends_at_second) {
         let found = "all paths end at the second hit in a closed white cube where remainingBounces \
@@ -155,7 +157,7 @@ fn judge_growth(calls: &[Call], verdict: &mut Verdict) {
         return;
     }
     let has_fault =
-        |verdict: &Verdict, name: &str| verdict.faults.iter().any(|f| f.name == Some(name));
+        |verdict: &SectionVerdict, name: &str| verdict.faults.iter().any(|f| f.name == Some(name));
     let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
     let first_stored = calls.iter().filter(|call| stores_first(call)).count();
     if first_stored > 0 && !has_fault(verdict, "direct-stored") {
@@ -216,24 +218,29 @@ fn lacks_second(call: &Call) -> bool {
     stored_and_due(call, 1).is_some_and(|(stored, due)| stored < due)
 }
 
-fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], far: &[Call], verdict: &mut Verdict) {
-    let below: usize = calls(Step::Remaining(-1)).iter().map(|call| call.stored.len()).sum();
+fn judge_limit<'a>(
+    calls: &impl Fn(PlanStep) -> &'a [Call],
+    far: &[Call],
+    verdict: &mut SectionVerdict,
+) {
+    let below: usize = calls(PlanStep::Remaining(-1)).iter().map(|call| call.stored.len()).sum();
     if below > 0 {
         let found = format!("{below} photons are stored with remainingBounces = -1");
         let advice = "End TracePhoton first of all where remainingBounces is less than 0.";
         verdict.fault(Some("no-limit"), found, advice);
     }
     let advice = "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.";
-    let at_zero = calls(Step::Remaining(0));
+    let at_zero = calls(PlanStep::Remaining(0));
     let hits_at_zero: usize = at_zero.iter().map(|call| call.hits().count()).sum();
     let stored_at_zero: usize = at_zero.iter().map(|call| call.stored.len()).sum();
-    let hits_at_one: usize = calls(Step::Remaining(1)).iter().map(|call| call.hits().count()).sum();
+    let hits_at_one: usize =
+        calls(PlanStep::Remaining(1)).iter().map(|call| call.hits().count()).sum();
     if !at_zero.is_empty() && hits_at_one > 0 && hits_at_zero == 0 {
         let found = "with remainingBounces = 0, no ray is traced; expected one".to_owned();
         verdict.fault(Some("bounce-off-by-one"), found, advice);
         return;
     }
-    let stores = calls(Step::StoreLater(2)).iter().any(|call| !call.stored.is_empty());
+    let stores = calls(PlanStep::StoreLater(2)).iter().any(|call| !call.stored.is_empty());
     if hits_at_zero > 0 && stored_at_zero == 0 && stores {
         let found = "with remainingBounces = 0, a hit is not stored".to_owned();
         verdict.fault(Some("bounce-off-by-one"), found, advice);
@@ -273,11 +280,11 @@ fn judge_limit<'a>(calls: &impl Fn(Step) -> &'a [Call], far: &[Call], verdict: &
 }
 
 /// What the stored photons hold, at a wall that absorbs everything.
-fn judge_values<'a>(calls: &impl Fn(Step) -> &'a [Call], verdict: &mut Verdict) {
+fn judge_values<'a>(calls: &impl Fn(PlanStep) -> &'a [Call], verdict: &mut SectionVerdict) {
     let mut total = 0;
     let mut elsewhere = None;
     let (mut off, mut intensity, mut reversed, mut unset, mut not_unit) = (0, 0, 0, 0, 0);
-    for call in [2, 3].into_iter().flat_map(|path| calls(Step::StoreLater(path))) {
+    for call in [2, 3].into_iter().flat_map(|path| calls(PlanStep::StoreLater(path))) {
         let Some(hit) = call.hits().next() else { continue };
         for stored in &call.stored {
             total += 1;

@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use super::Verdict;
+use super::SectionVerdict;
 use super::directions::{Directions, FEWEST, FrameForm, Scattered};
-use crate::plan::{Step, wall_normals};
+use crate::plan::{PlanStep, wall_normals};
 use crate::run::Observed;
 use variants::section::Section;
 
@@ -26,9 +26,9 @@ pub(super) fn judge(
     observed: &Observed,
     directions: &Directions,
     told: &mut Vec<String>,
-) -> Verdict {
-    let mut verdict = Verdict::new(Section::HemisphereRayTransformation);
-    let steps: Vec<_> = wall_normals().into_iter().map(Step::Wall).collect();
+) -> SectionVerdict {
+    let mut verdict = SectionVerdict::new(Section::HemisphereRayTransformation);
+    let steps: Vec<_> = wall_normals().into_iter().map(PlanStep::Wall).collect();
     let seen = directions.walls.iter().filter(|(_, rays)| rays.len() >= FEWEST).count();
     if seen == 0 {
         if steps.iter().all(|step| observed.death(*step).is_none()) {
@@ -48,7 +48,7 @@ pub(super) fn judge(
     verdict.finish(observed, "TracePhoton", &steps, told)
 }
 
-fn judge_frames(directions: &Directions, verdict: &mut Verdict) {
+fn judge_frames(directions: &Directions, verdict: &mut SectionVerdict) {
     let sampling_is_finite = directions.floor.iter().all(|ray| ray.direction.is_finite());
     let sampling_spreads = directions.sines.iter().any(|sine| *sine > 1e-6);
     let mut frames: Vec<(Vec3, Option<FrameForm>)> = Vec::new();
@@ -177,7 +177,7 @@ fn short(v: Vec3) -> String {
     format!("({:.2}, {:.2}, {:.2})", v.x, v.y, v.z)
 }
 
-fn judge_fair(frames: &[(Vec3, Option<FrameForm>)], verdict: &mut Verdict) {
+fn judge_fair(frames: &[(Vec3, Option<FrameForm>)], verdict: &mut SectionVerdict) {
     let has = |frame: FrameForm| frames.iter().any(|(_, other)| *other == Some(frame));
     if has(FrameForm::AsWritten) {
         verdict
@@ -187,7 +187,7 @@ fn judge_fair(frames: &[(Vec3, Option<FrameForm>)], verdict: &mut Verdict) {
 }
 
 /// Where scattered rays start, and whether they meet the surface they leave.
-fn judge_start(directions: &Directions, verdict: &mut Verdict) {
+fn judge_start(directions: &Directions, verdict: &mut SectionVerdict) {
     let walls = directions.walls.iter().map(|(normal, rays)| (*normal, rays));
     let all = walls.chain([(Vec3::Z, &directions.floor)]);
     let mut offsets = Vec::new();

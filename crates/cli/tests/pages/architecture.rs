@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use crate::{read, root};
+use crate::{project_files, read, root};
 
 const ROOT: &str = "photon-mapping";
 
@@ -57,4 +57,28 @@ fn drawing_has_what_the_manifests_have() {
     let lines = drawing.split("<line id=\"").skip(1);
     let drawn = lines.map(|line| line.split('"').next().expect("an id").to_owned());
     assert_eq!(drawn.collect::<BTreeSet<_>>(), expected);
+}
+
+/// Aliases of one file for different systems are one thing.
+#[test]
+fn no_type_name_stands_for_two_things() {
+    let mut places: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (path, text) in project_files(&[".rs"]) {
+        let is_library = path.starts_with("src/") || path.contains("/src/");
+        for line in text.lines().filter(|_| is_library) {
+            let declaration =
+                line.trim_start_matches("pub(crate) ").trim_start_matches("pub(super) ");
+            let declaration = declaration.trim_start_matches("pub ");
+            let kinds = ["struct ", "enum ", "trait ", "type "];
+            let Some(rest) = kinds.iter().find_map(|kind| declaration.strip_prefix(kind)) else {
+                continue;
+            };
+            let ends = |letter: char| !letter.is_alphanumeric();
+            let name = rest.split(ends).next().expect("a first part").to_owned();
+            places.entry(name).or_default().insert(path.clone());
+        }
+    }
+    assert!(places.contains_key("PhotonMappingRenderer"), "the port was not read");
+    places.retain(|_, paths| paths.len() > 1);
+    assert_eq!(places, BTreeMap::new());
 }

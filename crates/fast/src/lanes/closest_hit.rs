@@ -14,7 +14,7 @@ pub const GROUP: usize = 32;
 /// No triangle.
 pub const NONE: u32 = u32::MAX;
 
-type Lanes = [f32; GROUP];
+type GroupLanes = [f32; GROUP];
 
 /// The triangles of a scene, with every corner named once: a ray turns and shears a corner for all
 /// the triangles that share it. The same arithmetic gives the same bits however often it is done.
@@ -53,13 +53,13 @@ impl SharedCorners {
 #[derive(Clone, Debug)]
 pub struct Rays {
     /// Where they start.
-    pub origin: [Lanes; 3],
+    pub origin: [GroupLanes; 3],
     /// Where they go: unit vectors.
-    pub direction: [Lanes; 3],
+    pub direction: [GroupLanes; 3],
     /// [`Ray::start_error`].
-    pub start_error: Lanes,
+    pub start_error: GroupLanes,
     /// [`Ray::max_t`], which only [`Hits::settle`] minds.
-    pub max_t: Lanes,
+    pub max_t: GroupLanes,
 }
 
 impl Default for Rays {
@@ -77,13 +77,13 @@ impl Default for Rays {
 #[derive(Clone, Debug)]
 pub struct Hits {
     /// The distances.
-    pub t: Lanes,
+    pub t: GroupLanes,
     /// The triangles, or [`NONE`].
     pub triangle: [u32; GROUP],
     /// Not 0 where an edge function that decides was rounded to zero, or where a triangle is
     /// within the error of the start: see [`Self::settle`].
     is_doubtful: [u32; GROUP],
-    seen: Vec<[Lanes; 3]>,
+    seen: Vec<[GroupLanes; 3]>,
 }
 
 impl Default for Hits {

@@ -7,7 +7,7 @@ use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 
 use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
-use super::views::{View, Views};
+use super::views::{CameraView, Views};
 use super::width::Width;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_mapping_renderer::{
@@ -88,7 +88,7 @@ pub fn take_picture(
 
 /// The points that a group of camera rays sees, one after another.
 #[derive(Default)]
-struct Seen {
+struct SeenPoints {
     points: [[f32; GROUP]; 3],
     normals: [[f32; GROUP]; 3],
     /// [`photon_mapping::scene::Scene::offset`] there.
@@ -97,7 +97,7 @@ struct Seen {
     count: usize,
 }
 
-impl Seen {
+impl SeenPoints {
     fn push(&mut self, point: Vec3, normal: Vec3, needed: f32, triangle: u32) {
         for axis in 0..3 {
             self.points[axis][self.count] = point[axis];
@@ -111,7 +111,7 @@ impl Seen {
 /// The shadow rays of [`photon_mapping::rendering::backward_renderer::light_towards`], and the
 /// cosines at which they leave.
 struct Towards<'a> {
-    seen: &'a Seen,
+    seen: &'a SeenPoints,
     light: Vec3,
     rays: &'a mut Rays,
     cosines: &'a mut [f32; GROUP],
@@ -122,7 +122,7 @@ impl NullaryFnOnce for Towards<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { seen: Seen { points, normals, needed, .. }, light, rays, cosines } = self;
+        let Self { seen: SeenPoints { points, normals, needed, .. }, light, rays, cosines } = self;
         for lane in 0..GROUP {
             let point = Vec3::new(points[0][lane], points[1][lane], points[2][lane]);
             let normal = Vec3::new(normals[0][lane], normals[1][lane], normals[2][lane]);
@@ -192,7 +192,7 @@ impl<'a> PictureTracer<'a> {
                 self.rays.set(lane, &camera_ray(first + lane));
             }
             self.look(count);
-            let mut seen = Seen::default();
+            let mut seen = SeenPoints::default();
             for lane in 0..count {
                 if let Some(triangle) = scene.triangles().get(self.hits.triangle[lane] as usize) {
                     let t = self.hits.t[lane];
@@ -216,7 +216,7 @@ impl<'a> PictureTracer<'a> {
     }
 
     /// Adds a shadow ray for every light that shines on one of the last points, which are `seen`.
-    fn ask_lights(&mut self, seen: &Seen) {
+    fn ask_lights(&mut self, seen: &SeenPoints) {
         let scene = &self.renderer.stored_scene;
         let pixels = self.points.len() - seen.count;
         let (mut rays, mut cosines) = (Rays::default(), [0.0; GROUP]);
@@ -244,7 +244,7 @@ impl<'a> PictureTracer<'a> {
     fn look(&mut self, count: usize) {
         let Self { renderer, lanes, views, searched, rays, cells, hits, .. } = self;
         let scene = &renderer.stored_scene;
-        lanes.run(View { rays, cells });
+        lanes.run(CameraView { rays, cells });
         let bits = cells[..count].iter().fold(0, |bits, c| bits | views.of_cells[*c as usize]);
         let triangles = (0..scene.triangles().len() as u32).filter(|t| bits >> t & 1 == 1);
         let seen = searched.entry(bits).or_insert_with(|| SharedCorners::of(scene, triangles));

@@ -37,14 +37,14 @@ impl Views {
 }
 
 /// Finds the cells of rays from the camera.
-pub struct View<'a> {
+pub struct CameraView<'a> {
     /// The rays.
     pub rays: &'a Rays,
     /// Where the cells go.
     pub cells: &'a mut [u32; GROUP],
 }
 
-impl NullaryFnOnce for View<'_> {
+impl NullaryFnOnce for CameraView<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -76,7 +76,7 @@ mod tests {
         }
         for width in Width::available() {
             let mut cells = [0; GROUP];
-            width.run(View { rays: &rays, cells: &mut cells });
+            width.run(CameraView { rays: &rays, cells: &mut cells });
             let is_unknown = cells.map(|cell| cell == outlook::UNKNOWN);
             assert_eq!(is_unknown[..5], [false, true, true, false, false]);
             assert_eq!(is_unknown[5..10], [false, true, true, false, false]);

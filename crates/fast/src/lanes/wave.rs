@@ -19,7 +19,7 @@ use photon_mapping::scene::ray::Ray;
 
 /// A photon on its way from the light.
 #[derive(Clone, Copy, Debug)]
-struct Departure {
+struct EmittedPhoton {
     direction: Vec3,
     /// The numbers with which it goes on.
     draws: Draws,
@@ -126,7 +126,7 @@ impl LaneTracer<'_> {
         first_hits.finish();
         let mut arrivals = Arrivals::with_capacity(departures.len());
         let scene = &self.renderer.stored_scene;
-        for (place, Departure { direction, draws }) in departures.into_iter().enumerate() {
+        for (place, EmittedPhoton { direction, draws }) in departures.into_iter().enumerate() {
             let ray = Ray::new(light.position, direction);
             if let Some(FirstHit { t, triangle }) = first_hits.hit(place, scene, &ray) {
                 let point = ray.ray_position(t);
@@ -142,11 +142,11 @@ impl LaneTracer<'_> {
 
     /// Those of the photons `photons` that may hit something and be reflected there, in order, with
     /// directions that are not yet normalised.
-    fn depart(&self, outlook: &Outlook, photons: Range<u64>) -> Vec<Departure> {
+    fn depart(&self, outlook: &Outlook, photons: Range<u64>) -> Vec<EmittedPhoton> {
         let mut emission = LaneEmission::default();
         // Of the handout's photons, one in five.
         let expected = (photons.end - photons.start) as usize / 4;
-        let mut departures: Vec<Departure> = Vec::with_capacity(expected);
+        let mut departures: Vec<EmittedPhoton> = Vec::with_capacity(expected);
         // The places of those for which the first block was not long enough.
         let mut again = Vec::new();
         for first in photons.clone().step_by(emission::GROUP) {
@@ -164,7 +164,7 @@ impl LaneTracer<'_> {
             }
             departures.extend(lanes[..departing].iter().map(|&lane| {
                 let at = usize::from(lane) % emission::GROUP;
-                Departure {
+                EmittedPhoton {
                     direction: Vec3::from_array([0, 1, 2].map(|c| emission.point[c][at])),
                     draws: Draws {
                         photon: first.wrapping_add(lane.into()),
@@ -194,7 +194,7 @@ impl LaneTracer<'_> {
     }
 
     /// Goes on with the rejection loops of the departures at `places`.
-    fn try_again(&self, departures: &mut [Departure], mut places: Vec<usize>) {
+    fn try_again(&self, departures: &mut [EmittedPhoton], mut places: Vec<usize>) {
         let of_place = |place: &usize| {
             let photon = departures[*place].draws.photon;
             Draws { photon, drawn: emission::DRAWN_IN_VAIN, words: [0; 3] }

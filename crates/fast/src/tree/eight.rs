@@ -71,8 +71,8 @@ pub trait WithEight {
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub fn with_eight<K: WithEight>(width: Width, kernel: K) -> K::Output {
-    struct Call<K>(pulp::x86::V3, K);
-    impl<K: WithEight> pulp::NullaryFnOnce for Call<K> {
+    struct InV3<K>(pulp::x86::V3, K);
+    impl<K: WithEight> pulp::NullaryFnOnce for InV3<K> {
         type Output = K::Output;
 
         #[inline(always)]
@@ -81,7 +81,7 @@ pub fn with_eight<K: WithEight>(width: Width, kernel: K) -> K::Output {
         }
     }
     match pulp::x86::V3::try_new().filter(|_| width != Width::Baseline) {
-        Some(v3) => v3.vectorize(Call(v3, kernel)),
+        Some(v3) => v3.vectorize(InV3(v3, kernel)),
         None => kernel.with(Scalar256b),
     }
 }

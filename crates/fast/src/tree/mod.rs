@@ -29,11 +29,11 @@ use std::sync::Arc;
 
 use crate::lanes::width::Width;
 use build::{Halving, Item, NodeBounds, TreePart};
-use pages::Pages;
+use pages::LargePages;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::Triangle;
 use photon_mapping::scene::{Acceleration, Scene};
-use search::Search;
+use search::TreeSearch;
 
 /// Scenes with at most this many triangles get no tree. Lanes trace them faster.
 pub const FEW: usize = 64;
@@ -70,8 +70,8 @@ const INDICES: usize = 12;
 /// Boxes around boxes around triangles.
 #[derive(Debug)]
 pub struct Tree {
-    nodes: Pages,
-    leaves: Pages,
+    nodes: LargePages,
+    leaves: LargePages,
     bounds: NodeBounds,
     width: Width,
 }
@@ -103,7 +103,7 @@ impl Tree {
         let mut growing = Growing { triangles, halving, nodes, leaves };
         growing.add_node(root);
         let Growing { nodes, leaves, .. } = growing;
-        Self { nodes: Pages::of(&nodes), leaves: Pages::of(&leaves), bounds, width }
+        Self { nodes: LargePages::of(&nodes), leaves: LargePages::of(&leaves), bounds, width }
     }
 
     #[inline(always)]
@@ -114,7 +114,7 @@ impl Tree {
         of: impl Fn(&Triangle, f32) -> bool,
         any_will_do: bool,
     ) -> Option<(usize, f32, bool)> {
-        eight::with_eight(self.width, Search { tree: self, ray, triangles, of, any_will_do })
+        eight::with_eight(self.width, TreeSearch { tree: self, ray, triangles, of, any_will_do })
     }
 }
 

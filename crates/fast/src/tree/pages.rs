@@ -6,9 +6,9 @@ use pulp::bytemuck::{Pod, cast_slice};
 /// Values in pages of 2 MB where Linux grants them. A large tree is spread over so many pages of
 /// the ordinary 4 kB that a ray would wait for their addresses as long as for the values.
 #[derive(Debug)]
-pub struct Pages(MmapMut);
+pub struct LargePages(MmapMut);
 
-impl Pages {
+impl LargePages {
     /// The same values as `values`.
     ///
     /// # Panics

@@ -12,7 +12,7 @@ use photon_mapping::scene::triangle::{ShearedRay, Triangle, meet};
 const ORDINARY_STACK: usize = 32;
 
 /// The search for the closest hit of `ray` of those that `of` takes.
-pub struct Search<'a, F> {
+pub struct TreeSearch<'a, F> {
     pub tree: &'a Tree,
     pub ray: &'a Ray,
     pub triangles: &'a [Triangle],
@@ -20,7 +20,7 @@ pub struct Search<'a, F> {
     pub any_will_do: bool,
 }
 
-impl<F: Fn(&Triangle, f32) -> bool> WithEight for Search<'_, F> {
+impl<F: Fn(&Triangle, f32) -> bool> WithEight for TreeSearch<'_, F> {
     type Output = Option<(usize, f32, bool)>;
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use super::pictures::strength;
 use super::profile::Axis;
-use crate::places::Facet;
+use crate::places::FacetCells;
 use crate::text::rounded;
 
 const SIZE: (u32, u32) = (320, 150);
@@ -110,7 +110,7 @@ fn tick(at: &f64) -> String {
 /// many photons as expected it has, in colour beyond two standard deviations. `found`, `expected`
 /// and `variance` are by cell of the scene.
 pub fn map(
-    facet: &Facet,
+    facet: &FacetCells,
     axes: &[Axis; 2],
     found: &[f64],
     expected: &[f64],

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::observation::Counts;
-use crate::places::{Facet, Place, Places};
+use crate::observation::CountsByPlace;
+use crate::places::{FacetCells, Place, Places};
 use photon_mapping::photon_list::PhotonRecord;
 use variants::variation::{Simulation, Variation};
 
@@ -32,7 +32,7 @@ pub struct Axis {
 
 impl Axis {
     /// The axes of `facet`.
-    pub fn of(facet: &Facet) -> [Self; 2] {
+    pub fn of(facet: &FacetCells) -> [Self; 2] {
         [1, 3].map(|corner| {
             let [from, to] = [facet.corners[0], facet.corners[corner]].map(|c| c.to_array());
             let length = |axis: usize| (to[axis] - from[axis]).abs();
@@ -62,7 +62,7 @@ pub struct Profile {
     /// By facet and axis.
     pub along: Vec<[[f64; BINS]; 2]>,
     /// By place.
-    pub counts: Counts,
+    pub counts: CountsByPlace,
     /// By bounce, the first that is stored being the first.
     pub bounces: [f64; LAST_BOUNCE],
     /// By the cosine between the direction to the light and the normal, of all facets together.
@@ -74,7 +74,7 @@ impl Profile {
         let facets = places.facets.len();
         Self {
             along: vec![[[0.0; BINS]; 2]; facets],
-            counts: Counts::new(places),
+            counts: CountsByPlace::new(places),
             bounces: [0.0; LAST_BOUNCE],
             cosines: [0.0; BINS],
         }
@@ -127,7 +127,7 @@ impl Profile {
     }
 
     fn numbers(&mut self) -> impl Iterator<Item = &mut f64> {
-        let Counts { cells, corner, footprint, off_surface, not_finite } = &mut self.counts;
+        let CountsByPlace { cells, corner, footprint, off_surface, not_finite } = &mut self.counts;
         cells
             .iter_mut()
             .chain([corner, footprint, off_surface, not_finite])
