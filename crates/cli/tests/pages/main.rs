@@ -33,8 +33,8 @@ fn files(folder: &str, endings: &[&str], found: &mut Vec<String>) {
     for name in names {
         let path = if folder == "." { name.clone() } else { format!("{folder}/{name}") };
         if root().join(&path).is_dir() {
-            let is_made = ["target", "out", "report", "golden"].contains(&path.as_str());
-            if !is_made && !name.starts_with('.') {
+            let is_made = ["out", "report", "golden"].contains(&path.as_str());
+            if !is_made && name != "target" && !name.starts_with('.') {
                 files(&path, endings, found);
             }
         } else if endings.iter().any(|ending| name.ends_with(ending)) {
