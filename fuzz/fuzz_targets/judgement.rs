@@ -25,7 +25,8 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
             });
             let grade = graded.expect("there is a grade").grade;
             let mut found = grade.findings.iter().map(|finding| &finding.found);
-            let failed = found.any(|found| found.contains("the grader itself failed"));
+            // Not where a cell with these words is quoted.
+            let failed = found.any(|found| found.starts_with("the grader itself failed"));
             assert!(!failed && (0.0..=4.0).contains(&grade.score), "{grade:?}");
         }
     });
