@@ -71,12 +71,15 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
     let other = match (&arguments.submission, misreading) {
         (Some(path), _) => {
             let name = path.file_name().unwrap_or(path.as_os_str());
-            let other = Other::Submission(name.to_string_lossy().into_owned());
-            Some((other, reader::load(path)?))
+            let name = name.to_string_lossy().into_owned();
+            let list = reader::load(path)?;
+            let recognize = || misreading::recognize(&list, &run);
+            let misreading = is_handout.then(recognize).flatten();
+            Some((Other::Submission { name, misreading }, list))
         }
         (None, Some(name)) => {
             let traced = misreading::trace(name, &run);
-            traced.map(|(other, records)| (other, list(records)))
+            traced.map(|(misreading, records)| (Other::Misreading(misreading), list(records)))
         }
         (None, None) => None,
     };

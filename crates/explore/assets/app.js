@@ -8,12 +8,10 @@ const make = (tag, properties = {}, ...children) => {
 };
 const theme = window.matchMedia("(prefers-color-scheme: dark)");
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
-const BOUNCE_LOOKS = [
-  ["one", "circle"],
-  ["two", "square"],
-  ["three", "diamond"],
-  ["four", "triangle"],
-];
+/** Colors and shapes by bounce, and by what a comparison says. */
+const BOUNCE_LOOKS =
+  [["one", "circle"], ["two", "square"], ["three", "diamond"], ["four", "triangle"]];
+const RED = ["red", "circle"];
 const KINDS = ["matched", "missing", "moved", "extra"];
 const KIND_LOOKS = {
   matched: ["grey", "circle"],
@@ -21,21 +19,25 @@ const KIND_LOOKS = {
   moved: ["moved", "diamond"],
   extra: ["extra", "cross"],
 };
+/** Up to so many differing dots are drawn large. */
+const MOST_LARGE = 2000;
+/** Up to about so many lines of moved photons are drawn: more hide the box. */
+const MOST_LINES = 800;
 
 class Page {
+  photon = null;
+  steps = [];
+  at = 0;
+  /** Cells of the table: whose photons are shown alone, and whose are lit. */
+  only = null;
+  lit = null;
+  /** What the filters hide. */
+  bounces = new Set();
+  surfaces = new Set();
+  timer = null;
+
   constructor(run, view) {
-    Object.assign(this, {
-      run,
-      view,
-      photon: null,
-      steps: [],
-      at: 0,
-      only: null,
-      lit: null,
-      bounces: new Set(),
-      surfaces: new Set(),
-      timer: null,
-    });
+    Object.assign(this, { run, view });
     this.collectDots();
     this.showRun();
     this.showComparison();
@@ -46,143 +48,113 @@ class Page {
     else this.showPicture();
     theme.addEventListener("change", () => this.readColors());
     window.addEventListener("hashchange", () => this.followLink());
-    if (!this.followLink()) this.openStart();
+    this.openStart();
   }
 
   /** All dots: the stored photons, then those that a submission moved, then its extra ones. */
   collectDots() {
-    const { run } = this,
-      { sections, comparison } = run;
-    const moved = sections.moved_index ?? [],
-      extra = sections.extra_x ?? [];
-    this.count = run.stored + moved.length + extra.length;
+    const { run } = this, { sections } = run;
+    const { moved_index: moved = [], extra_x: extra = [] } = sections;
+    const firstExtra = run.stored + moved.length;
+    this.count = firstExtra + extra.length;
     this.positions = new Float32Array(3 * this.count);
     this.positions.set(run.positions);
-    this.kinds = new Uint8Array(this.count);
-    if (comparison) this.kinds.set(sections.kind);
-    ["x", "y", "z"].forEach((axis, i) => {
-      [
-        ["moved", run.stored],
-        ["extra", run.stored + moved.length],
-      ].forEach(([name, first]) =>
+    const put = (first, name) =>
+      ["x", "y", "z"].forEach((axis, i) =>
         sections[`${name}_${axis}`]?.forEach((coordinate, k) => {
           this.positions[3 * (first + k) + i] = coordinate;
-        }),
-      );
-    });
-    this.kinds.fill(2, run.stored, run.stored + moved.length).fill(3, run.stored + moved.length);
+        }));
+    put(run.stored, "moved");
+    put(firstExtra, "extra");
+    this.kinds = new Uint8Array(this.count);
+    this.kinds.set(sections.kind ?? []);
+    this.kinds.fill(2, run.stored, firstExtra).fill(3, firstExtra);
+    this.differing = this.kinds.reduce((count, kind) => count + (kind > 0), 0);
   }
 
-  /** Photon (-1 if not known), bounce and surface of dot `index`. */
-  dot(index) {
-    const { run } = this,
-      { sections } = run,
-      moved = sections.moved_index?.length ?? 0;
-    const stored =
-      index < run.stored
-        ? index
-        : index < run.stored + moved
-          ? sections.moved_index[index - run.stored]
-          : -1;
-    if (stored >= 0)
-      return {
-        photon: run.photons[run.pathOf[stored]],
-        bounce: run.bounceOf[stored],
-        surface: run.surfaceOf[stored],
-      };
-    const k = index - run.stored - moved,
-      photon = sections.extra_photon[k];
-    return {
-      photon: photon === 0xffffffff ? -1 : photon,
-      bounce: sections.extra_bounce[k],
-      surface: sections.extra_surface[k],
-    };
+  place(index) {
+    return [...this.positions.subarray(3 * index, 3 * index + 3)];
+  }
+
+  /** Puts photon (-1 if not known), bounce and surface of dot `index` into `dot`. */
+  readDot(index, dot) {
+    const { run } = this, { sections } = run;
+    const moved = sections.moved_index?.length ?? 0;
+    const k = index - run.stored - moved;
+    if (k >= 0) {
+      const photon = sections.extra_photon[k];
+      dot.photon = photon === 0xffffffff ? -1 : photon;
+      dot.bounce = sections.extra_bounce[k];
+      dot.surface = sections.extra_surface[k];
+    } else {
+      const stored = index < run.stored ? index : sections.moved_index[index - run.stored];
+      dot.photon = run.photons[run.pathOf[stored]];
+      dot.bounce = run.bounceOf[stored];
+      dot.surface = run.surfaceOf[stored];
+    }
+    return dot;
   }
 
   showDots() {
-    const { run, view, only, lit } = this;
-    const mode = $("colors").value,
-      from = Number($("from").value || 0),
-      to = $("to").value === "" ? Infinity : Number($("to").value);
-    const looks = new Uint8Array(2 * this.count);
-    const code = ([color, shape]) => COLORS.indexOf(color) | (SHAPES[shape] << 4);
-    const byBounce = BOUNCE_LOOKS.map(code),
-      byKind = KINDS.map((kind) => code(KIND_LOOKS[kind])),
-      red = code(["red", "circle"]);
-    const inCell = ({ surface, bounces: [low, high] }, dot) =>
+    const { run, view, only, lit, kinds } = this;
+    const mode = $("colors").value;
+    const number = (id, otherwise) => ($(id).value === "" ? otherwise : Number($(id).value));
+    const from = number("from", 0), to = number("to", Infinity);
+    const names = BOUNCE_LOOKS.map((_, i) => (i === 3 ? "bounce 4 or more" : `bounce ${i + 1}`));
+    // For each way to color: the looks, those of the legend with their names, and a dot's look.
+    const ways = {
+      bounce: [BOUNCE_LOOKS, names, (i, { bounce }) => clamp(bounce, 1, 4) - 1],
+      surface: [BOUNCE_LOOKS, run.surfaces.slice(0, 8).map(({ name }) => name),
+        (i, { surface }) => surface % 4],
+      red: [[RED], ["stored photon"], () => 0],
+      kind: [KINDS.map((kind) => KIND_LOOKS[kind]), KINDS, (i) => kinds[i]],
+    };
+    const [styles, legend, styleOf] = ways[mode];
+    const codes = styles.map((style) => look(...style));
+    const isIn = ({ surface, bounces: [low, high] }, dot) =>
       (surface === null || surface === dot.surface) && dot.bounce >= low && dot.bounce <= high;
-    const isolated = $("alone").checked,
-      dot = {};
+    const looks = new Uint8Array(2 * this.count), dot = {};
+    const isLarge = mode === "kind" && this.differing <= MOST_LARGE;
     let shown = 0;
     for (let i = 0; i < this.count; i++) {
-      if (i < run.stored) {
-        dot.photon = run.photons[run.pathOf[i]];
-        dot.bounce = run.bounceOf[i];
-        dot.surface = run.surfaceOf[i];
-      } else Object.assign(dot, this.dot(i));
-      const bounce = Math.min(Math.max(dot.bounce, 1), 4) - 1;
-      const hidden =
-        this.bounces.has(bounce) ||
-        this.surfaces.has(dot.surface) ||
-        dot.photon < from ||
-        dot.photon > to ||
-        (only && !inCell(only, dot)) ||
-        (isolated && dot.photon !== this.photon) ||
-        (i >= run.stored && mode !== "kind");
-      looks[2 * i] =
-        mode === "kind"
-          ? byKind[this.kinds[i]]
-          : mode === "red"
-            ? red
-            : byBounce[mode === "surface" ? dot.surface % 4 : bounce];
-      looks[2 * i + 1] = hidden ? 0 : lit && inCell(lit, dot) ? 2 : 1;
-      if (!hidden) shown++;
+      if (i >= run.stored && mode !== "kind") break;
+      this.readDot(i, dot);
+      const isHidden =
+        this.bounces.has(clamp(dot.bounce, 1, 4) - 1) || this.surfaces.has(dot.surface) ||
+        dot.photon < from || dot.photon > to || (only && !isIn(only, dot));
+      if (isHidden) continue;
+      looks[2 * i] = codes[styleOf(i, dot)];
+      looks[2 * i + 1] = lit && isIn(lit, dot) ? 2 : isLarge && kinds[i] ? 3 : 1;
+      shown++;
     }
     this.looks = looks;
     $("shown").textContent =
       `${thousands(shown)} photon${shown === 1 ? "" : "s"} shown${only ? `: ${only.name}` : ""}.`;
-    const legend =
-      mode === "kind"
-        ? KINDS.map((kind) => [KIND_LOOKS[kind], kind])
-        : mode === "red"
-          ? [[["red", "circle"], "stored photon"]]
-          : mode === "surface"
-            ? run.surfaces.slice(0, 8).map(({ name }, i) => [BOUNCE_LOOKS[i % 4], name])
-            : BOUNCE_LOOKS.map((look, i) => [
-                look,
-                i === 3 ? "bounce 4 or more" : `bounce ${i + 1}`,
-              ]);
     $("legend").replaceChildren(
-      ...legend.map(([look, name]) => make("li", {}, swatch(...look), ` ${name}`)),
-    );
+      ...legend.map((name, i) => make("li", {}, swatch(...styles[i % styles.length]), ` ${name}`)));
     if (!view) return;
     view.dim = lit ? 0.15 : 1;
     view.setDots(this.positions, looks, this.faceOf);
-    const { moved_index: moved } = run.sections;
-    const lines = [];
-    if (moved && mode === "kind") {
-      // More lines than this hide the box; those of the photon that is open are always drawn.
-      const every = Math.ceil(moved.length / 800);
-      for (let k = 0; k < moved.length; k++) {
-        const index = run.stored + k,
-          isOpen = run.photons[run.pathOf[moved[k]]] === this.photon;
-        if (!looks[2 * index + 1] || (k % every && !isOpen)) continue;
-        const place = (i) => [...this.positions.subarray(3 * i, 3 * i + 3)];
-        lines.push({
-          a: place(moved[k]),
-          b: place(index),
-          color: "moved",
-          width: isOpen ? 2.5 : 1,
-          alpha: isOpen ? 1 : Math.min(1, 60 / Math.sqrt(moved.length) / 3),
-        });
-      }
-    }
-    view.setLines("moved", lines);
+    view.setLines("moved", mode === "kind" ? this.movedLines() : []);
+  }
+
+  /** Lines from where moved photons are to where they should be, always of the open photon. */
+  movedLines() {
+    const { run } = this, { moved_index: moved = [] } = run.sections;
+    const every = Math.ceil(moved.length / MOST_LINES), lines = [];
+    const alpha = Math.min(1, 20 / Math.sqrt(moved.length));
+    moved.forEach((stored, k) => {
+      const isOpen = run.photons[run.pathOf[stored]] === this.photon;
+      if (!this.looks[2 * (run.stored + k) + 1] || (k % every && !isOpen)) return;
+      const [a, b] = [this.place(stored), this.place(run.stored + k)];
+      lines.push({ a, b, color: "moved", width: isOpen ? 2.5 : 1, alpha: isOpen ? 1 : alpha });
+    });
+    return lines;
   }
 
   openDot(index) {
     if (index < 0) return;
-    const { photon, bounce } = this.dot(index);
+    const { photon, bounce } = this.readDot(index, {});
     if (photon < 0) return this.say("This list does not tell the photon of its records.");
     this.open(photon, bounce, "stored");
   }
@@ -190,47 +162,35 @@ class Page {
   listen() {
     const on = (id, kind, action) => $(id).addEventListener(kind, action);
     const center = () => {
-      const step = this.steps[this.at],
-        hit = this.story?.hits[Math.min(step.bounce, this.story.hits.length - 1)];
-      this.moveCamera({
-        target: step?.name === "emission" || !hit ? this.story.light.position : hit.position,
-        distance: this.run.size * 0.9,
-      });
+      const { light, hits } = this.story, { name, bounce } = this.steps[this.at];
+      const hit = name === "emission" ? null : hits[Math.min(bounce, hits.length - 1)];
+      this.moveCamera({ target: (hit ?? light).position, distance: this.run.size * 0.9 });
     };
     const home = () => {
-      const { yaw } = this.view?.camera ?? {};
-      this.moveCamera({
-        ...this.run.camera,
-        yaw:
-          yaw === undefined
-            ? 0
-            : this.run.camera.yaw +
-              2 * Math.PI * Math.round((yaw - this.run.camera.yaw) / 2 / Math.PI),
-      });
+      // The shorter way round.
+      const turns = Math.round(((this.view?.camera.yaw ?? 0) - this.run.camera.yaw) / 2 / Math.PI);
+      this.moveCamera({ ...this.run.camera, yaw: this.run.camera.yaw + 2 * Math.PI * turns });
     };
+    const set = (name, value) => {
+      if (!this.view) return;
+      this.view[name] = value;
+      this.view.draw();
+    };
+    const openNumber = () => this.open(Number($("photon").value), 0, "emission");
+    const togglePlay = () => this.play(this.timer === null);
     on("home", "click", home);
     on("center", "click", center);
-    for (const id of ["colors", "from", "to", "alone"]) on(id, "input", () => this.showDots());
-    on("walls", "input", () => {
-      if (this.view) {
-        this.view.wallAlpha = $("walls").checked ? 1 : 0.16;
-        this.view.draw();
-      }
-    });
-    on("dots", "input", () => {
-      if (this.view) {
-        this.view.dotScale = Number($("dots").value);
-        this.view.draw();
-      }
-    });
+    for (const id of ["colors", "from", "to"]) on(id, "input", () => this.showDots());
+    on("walls", "input", () => set("wallAlpha", $("walls").checked ? 1 : 0.16));
+    on("dots", "input", () => set("dotScale", Number($("dots").value)));
     on("previous", "click", () => this.skip(-1));
     on("next", "click", () => this.skip(1));
+    on("photon", "change", openNumber);
     on("choose", "submit", (event) => {
       event.preventDefault();
-      this.open(Number($("photon").value), 0, "emission");
+      openNumber();
     });
-    on("photon", "change", () => this.open(Number($("photon").value), 0, "emission"));
-    on("play", "click", () => this.play(this.timer === null));
+    on("play", "click", togglePlay);
     on("slider", "input", () => this.go(Number($("slider").value)));
     on("divergence", "click", () => this.openDivergence());
     const keys = {
@@ -238,7 +198,7 @@ class Page {
       ArrowRight: () => this.go(this.at + 1),
       ArrowUp: () => this.changeBounce(-1),
       ArrowDown: () => this.changeBounce(1),
-      " ": () => this.play(this.timer === null),
+      " ": togglePlay,
       n: () => this.skip(1),
       p: () => this.skip(-1),
       h: home,
@@ -247,12 +207,8 @@ class Page {
       "=": () => this.mouse?.zoom(0.85),
       "-": () => this.mouse?.zoom(1.18),
     };
-    const turns = {
-      ArrowLeft: [-0.1, 0],
-      ArrowRight: [0.1, 0],
-      ArrowUp: [0, -0.1],
-      ArrowDown: [0, 0.1],
-    };
+    const turns =
+      { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] };
     document.addEventListener("keydown", (event) => {
       const { target, key } = event;
       if (event.ctrlKey || event.metaKey || event.altKey || !this.steps.length) return;

@@ -3,10 +3,8 @@
 const countsMethods = {
   showRun() {
     const { run } = this;
-    const thinned =
-      run.keptOf > run.stored
-        ? ` Of these the page has ${thousands(run.stored)}, evenly thinned.`
-        : "";
+    const thinned = run.keptOf > run.stored
+      ? ` Of these the page has ${thousands(run.stored)}, evenly thinned.` : "";
     const counts = `${thousands(run.emitted)} emitted, ${thousands(run.keptOf)} stored`;
     $("run").textContent = `${counts}, seed ${run.seed}.${thinned}`;
     $("home").textContent = run.isHandout ? "Handout's camera" : "Whole scene";
@@ -17,97 +15,59 @@ const countsMethods = {
     const { comparison } = this.run;
     if (!comparison) return;
     $("comparison").hidden = false;
-    $("verdict").textContent = comparison.verdict;
-    $("reason").textContent = comparison.reason;
-    $("advice").textContent = comparison.advice;
-    $("report").textContent = comparison.report;
+    for (const id of ["verdict", "reason", "advice", "report"]) $(id).textContent = comparison[id];
     $("divergence").hidden = comparison.photon === null;
     for (const kind of KINDS) {
-      const [color, shape] = KIND_LOOKS[kind];
-      $("differences").append(
-        make("li", {}, swatch(color, shape), ` ${thousands(comparison.counts[kind])} ${kind}`),
-      );
+      const words = ` ${thousands(comparison.counts[kind])} ${kind}`;
+      $("differences").append(make("li", {}, swatch(...KIND_LOOKS[kind]), words));
     }
   },
 
   showTable() {
-    const { run } = this,
-      table = $("table");
-    const cell = ({ stored, expected, z }, only) => {
-      const words = [make("b", { textContent: thousands(stored) })];
-      if (expected !== null)
-        words.push(
-          make("span", {
-            textContent: expected.toLocaleString("en-US", {
-              maximumFractionDigits: 1,
-              minimumFractionDigits: 1,
-            }),
-          }),
-        );
-      if (z !== null)
-        words.push(
-          make("span", {
-            className: Math.abs(z) > 4 ? "far" : "",
-            textContent: `${z < 0 ? "−" : "+"}${Math.abs(z).toFixed(1)} σ`,
-          }),
-        );
-      const button = make("button", { type: "button", ariaPressed: "false" }, ...words);
-      const beside = expected === null ? "" : `, ${expected.toFixed(1)} expected`;
-      button.setAttribute("aria-label", `${only.name}: ${stored} stored${beside}`);
-      const light = (lit) => {
-        this.lit = lit;
-        this.showDots();
-      };
-      for (const kind of ["pointerenter", "focus"])
-        button.addEventListener(kind, () => light(only));
-      for (const kind of ["pointerleave", "blur"]) button.addEventListener(kind, () => light(null));
-      button.addEventListener("click", () => {
-        this.only = this.only === only ? null : only;
-        table.querySelectorAll("button").forEach((other) => {
-          other.ariaPressed = String(this.only !== null && other === button);
-        });
-        this.showDots();
+    const { run } = this;
+    const heading = (name, scope) => make("th", { scope, textContent: name });
+    const top = ["surface", ...run.columns].map((name) => heading(name, "col"));
+    const row = ({ name, cells }, index) => {
+      const surface = index < run.surfaces.length ? index : null;
+      const made = cells.map((cell, column) => {
+        // The last column has all bounces, and the one before it all late ones.
+        const last = cells.length - 1;
+        const most = column < last - 1 ? column + 1 : Infinity;
+        const bounces = [column === last ? 1 : column + 1, most];
+        return this.cell(cell, { name: `${name}, ${run.columns[column]}`, surface, bounces });
       });
-      return make("td", {}, button);
+      return make("tr", {}, heading(name, "row"), ...made);
     };
-    table.append(
-      make(
-        "thead",
-        {},
-        make(
-          "tr",
-          {},
-          ...["surface", ...run.columns].map((name) =>
-            make("th", { scope: "col", textContent: name }),
-          ),
-        ),
-      ),
-    );
-    table.append(
-      make(
-        "tbody",
-        {},
-        ...run.rows.map((row, surface) =>
-          make(
-            "tr",
-            {},
-            make("th", { scope: "row", textContent: row.name }),
-            ...row.cells.map((each, column) =>
-              cell(each, {
-                name: `${row.name}, ${run.columns[column]}`,
-                surface: surface < run.surfaces.length ? surface : null,
-                bounces:
-                  column === run.columns.length - 1
-                    ? [1, Infinity]
-                    : column === run.columns.length - 2
-                      ? [column + 1, Infinity]
-                      : [column + 1, column + 1],
-              }),
-            ),
-          ),
-        ),
-      ),
-    );
+    $("table").append(
+      make("thead", {}, make("tr", {}, ...top)), make("tbody", {}, ...run.rows.map(row)));
+  },
+
+  /** A cell of the table that lights and keeps the photons `only`. */
+  cell({ stored, expected, z }, only) {
+    const oneDigit = { maximumFractionDigits: 1, minimumFractionDigits: 1 };
+    const words = [make("b", { textContent: thousands(stored) })];
+    if (expected !== null)
+      words.push(make("span", { textContent: expected.toLocaleString("en-US", oneDigit) }));
+    if (z !== null) {
+      const textContent = `${z < 0 ? "−" : "+"}${Math.abs(z).toFixed(1)} σ`;
+      words.push(make("span", { className: Math.abs(z) > 4 ? "far" : "", textContent }));
+    }
+    const beside = expected === null ? "" : `, ${expected.toFixed(1)} expected`;
+    const ariaLabel = `${only.name}: ${stored} stored${beside}`;
+    const button = make("button", { type: "button", ariaPressed: "false", ariaLabel }, ...words);
+    const light = (lit) => {
+      this.lit = lit;
+      this.showDots();
+    };
+    for (const kind of ["pointerenter", "focus"]) button.addEventListener(kind, () => light(only));
+    for (const kind of ["pointerleave", "blur"]) button.addEventListener(kind, () => light(null));
+    button.addEventListener("click", () => {
+      this.only = this.only === only ? null : only;
+      for (const other of $("table").querySelectorAll("button"))
+        other.ariaPressed = String(this.only !== null && other === button);
+      this.showDots();
+    });
+    return make("td", {}, button);
   },
 
   showFilters() {
@@ -121,19 +81,15 @@ const countsMethods = {
       });
       return make("label", {}, input, ` ${label}`);
     };
-    $("by-bounce").append(
-      ...BOUNCE_LOOKS.map((_, i) => box(i === 3 ? "4 or more" : String(i + 1), this.bounces, i)),
-    );
+    const bounces = ["1", "2", "3", "4 or more"];
+    $("by-bounce").append(...bounces.map((label, i) => box(label, this.bounces, i)));
     $("by-surface").append(...run.surfaces.map(({ name }, i) => box(name, this.surfaces, i)));
-    const modes = [
-      ["bounce", "by bounce"],
-      ["surface", "by surface"],
-      ["red", "plain red"],
-    ];
-    if (run.comparison) modes.unshift(["kind", "by difference"]);
-    $("colors").append(
-      ...modes.map(([value, name]) => make("option", { value, textContent: name })),
-    );
+    const modes = { bounce: "by bounce", surface: "by surface", red: "plain red" };
+    for (const [value, textContent] of Object.entries(modes))
+      $("colors").append(make("option", { value, textContent }));
+    if (run.comparison)
+      $("colors").prepend(
+        make("option", { value: "kind", textContent: "by difference", selected: true }));
   },
 };
 
@@ -147,9 +103,6 @@ function swatch(color, shape) {
     ring: () => circle([7, 7], 4.5, "ring"),
     cross: () => draw("g", {}, line([3, 3], [11, 11]), line([3, 11], [11, 3])),
   };
-  return draw(
-    "svg",
-    { viewBox: "0 0 14 14", class: `swatch ${color}`, "aria-hidden": "true" },
-    shapes[shape](),
-  );
+  const attributes = { viewBox: "0 0 14 14", class: `swatch ${color}`, "aria-hidden": "true" };
+  return draw("svg", attributes, shapes[shape]());
 }

@@ -26,40 +26,22 @@ async function readSections(list) {
 /** The random numbers of `photon`: ChaCha with 8 rounds, as in the port's `random.rs`. The numbers
  * of all photons would double the page, so they are drawn again here. Rust computed the rest. */
 function photonRandom(seed, photon) {
-  const block = new Uint32Array(16);
+  const [block, start] = [new Uint32Array(16), new Uint32Array(16)];
   const key = BigInt(seed);
-  const start = [
-    0x61707865,
-    0x3320646e,
-    0x79622d32,
-    0x6b206574,
-    Number(key & 0xffffffffn),
-    Number(key >> 32n),
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    photon,
-    0,
-  ];
+  start.set([0x61707865, 0x3320646e, 0x79622d32, 0x6b206574]);
+  start.set([Number(key & 0xffffffffn), Number(key >> 32n)], 4);
+  start[14] = photon;
   let next = 16;
-  const turn = (a, b, by) => {
-    block[a] ^= block[b];
-    block[a] = (block[a] << by) | (block[a] >>> (32 - by));
+  const mix = (a, b, d, by) => {
+    block[a] += block[b];
+    block[d] ^= block[a];
+    block[d] = (block[d] << by) | (block[d] >>> (32 - by));
   };
   const quarter = (a, b, c, d) => {
-    block[a] += block[b];
-    turn(d, a, 16);
-    block[c] += block[d];
-    turn(b, c, 12);
-    block[a] += block[b];
-    turn(d, a, 8);
-    block[c] += block[d];
-    turn(b, c, 7);
+    mix(a, b, d, 16);
+    mix(c, d, b, 12);
+    mix(a, b, d, 8);
+    mix(c, d, b, 7);
   };
   return () => {
     if (next === 16) {
@@ -69,9 +51,7 @@ function photonRandom(seed, photon) {
         for (let i = 0; i < 4; i++)
           quarter(i, 4 + ((i + 1) % 4), 8 + ((i + 2) % 4), 12 + ((i + 3) % 4));
       }
-      start.forEach((word, i) => {
-        block[i] += word;
-      });
+      for (let i = 0; i < 16; i++) block[i] += start[i];
       start[12] += 1;
       next = 0;
     }
@@ -98,9 +78,8 @@ class Run {
     let photon = 0;
     for (let path = 0; path < this.paths; path++) {
       this.photons[path] = photon += steps[path];
-      const count = hits[path],
-        first = this.firstHit[path],
-        at = this.firstStored[path];
+      const count = hits[path];
+      const [first, at] = [this.firstHit[path], this.firstStored[path]];
       for (let bounce = 1; bounce < count; bounce++) {
         this.pathOf[at + bounce - 1] = path;
         this.bounceOf[at + bounce - 1] = bounce;
@@ -108,8 +87,8 @@ class Run {
       }
       this.firstHit[path + 1] = first + count;
       this.firstStored[path + 1] = at + Math.max(count - 1, 0);
-      this.firstScattered[path + 1] =
-        this.firstScattered[path] + count - (endings[path] === 0 ? 1 : 0);
+      const scattered = count - (endings[path] === 0 ? 1 : 0);
+      this.firstScattered[path + 1] = this.firstScattered[path] + scattered;
     }
     this.positions = new Float32Array(3 * stored);
     ["x", "y", "z"].forEach((axis, i) => {
@@ -124,8 +103,7 @@ class Run {
 
   /** The path of `photon`, or -1. */
   pathOfPhoton(photon) {
-    let low = 0,
-      high = this.paths;
+    let [low, high] = [0, this.paths];
     while (low < high) {
       const middle = (low + high) >> 1;
       if (this.photons[middle] < photon) low = middle + 1;
@@ -151,54 +129,35 @@ class Run {
       tries.push(xyz);
     } while (square > 1 || square === 0);
     const light = this.lights[sections.path_light[path]];
-    const count = sections.path_hits[path],
-      ending = ["absorbed", "left_the_scene", "bounce_limit"][sections.path_ending[path]];
+    const count = sections.path_hits[path];
+    const ending = ["absorbed", "left_the_scene", "bounce_limit"][sections.path_ending[path]];
     // In f32, as Rust computes them; Rust packs them where this would give other bits.
     const by = round(1 / round(Math.sqrt(square)));
     const direction = sections.emission_x
       ? this.vector("emission", path)
       : tries.at(-1).map((x) => round(x * by));
-    const direct = (t) => light.position.map((x, i) => round(x + round(t * direction[i])));
-    const hits = [];
-    for (let bounce = 0; bounce < count; bounce++) {
+    const hits = Array.from({ length: count }, (_, bounce) => {
       const at = this.firstHit[path] + bounce;
       const face = this.faces[sections.hit_face[at]];
-      const surface = this.surfaces[face.surface];
-      const roulette = rand();
+      const { name: surface, survival, diffuse } = this.surfaces[face.surface];
+      const t = sections.hit_t[at];
+      const direct = () =>
+        sections.direct_x
+          ? this.vector("direct", path)
+          : light.position.map((x, i) => round(x + round(t * direction[i])));
+      const stored = bounce > 0;
+      const position = stored
+        ? this.vector("stored", this.firstStored[path] + bounce - 1)
+        : direct();
       const scattered = bounce + 1 < count || ending !== "absorbed";
-      const position =
-        bounce > 0
-          ? this.vector("stored", this.firstStored[path] + bounce - 1)
-          : sections.direct_x
-            ? this.vector("direct", path)
-            : direct(sections.hit_t[at]);
-      const hit = {
-        bounce,
-        face,
-        surface: surface.name,
-        facet: face.facet,
-        t: sections.hit_t[at],
-        position,
-        roulette,
-        normal: face.normal,
-        survival: surface.survival,
-        diffuse: surface.diffuse,
-        scattered,
-        stored: bounce > 0,
-      };
-      hits.push(
-        scattered
-          ? {
-              ...hit,
-              u1: rand(),
-              u2: rand(),
-              tangent: face.tangent,
-              bitangent: face.bitangent,
-              direction: this.vector("scattered", this.firstScattered[path] + bounce),
-            }
-          : hit,
-      );
-    }
+      const hit = { bounce, face, surface, survival, diffuse, t, position, stored, scattered };
+      hit.roulette = rand();
+      if (scattered) {
+        [hit.u1, hit.u2] = [rand(), rand()];
+        hit.direction = this.vector("scattered", this.firstScattered[path] + bounce);
+      }
+      return hit;
+    });
     return { photon, light, tries, direction, hits, ending };
   }
 }

@@ -1,10 +1,15 @@
 // The page: the story of the open photon, step by step, beside the code.
 
 const panelMethods = {
+  /** Opens what the address names, or else the first divergence or the first photon. */
   openStart() {
-    const { comparison, start } = this.run;
+    if (this.followLink()) return;
+    const words = $("no-story").textContent;
+    const { comparison, start, paths } = this.run;
     if (comparison && comparison.photon !== null) this.openDivergence();
-    else if (this.run.paths) this.open(start, 0, "emission");
+    else if (paths) this.open(start, 0, "emission");
+    // The photon of the address may have no story.
+    this.say(words);
   },
 
   openDivergence() {
@@ -19,19 +24,14 @@ const panelMethods = {
 
   /** Opens `photon` at the step `name` of `bounce`, or as near to it as its path goes. */
   open(photon, bounce, name) {
-    const { run } = this,
-      path = run.pathOfPhoton(photon);
+    const { run } = this, path = run.pathOfPhoton(photon);
     if (path < 0) {
-      const why =
-        photon >= run.emitted
-          ? `expected a number below ${thousands(run.emitted)}`
-          : run.keptOf > run.stored
-            ? "it stores no photon, or the page leaves it out"
-            : "it stores no photon";
+      const why = photon >= run.emitted
+        ? `expected a number below ${thousands(run.emitted)}`
+        : `it stores no photon${run.keptOf > run.stored ? ", or the page leaves it out" : ""}`;
       return this.say(
         `Photon ${thousands(photon)} has no story here: ${why}. ` +
-          `Run photon-mapping explore --photon ${photon} to get it.`,
-      );
+          `Run photon-mapping explore --photon ${photon} to get it.`);
     }
     this.say("");
     if (photon !== this.photon) {
@@ -39,17 +39,16 @@ const panelMethods = {
       this.story = run.story(path);
       this.steps = stepsOf(run, this.story);
       $("slider").max = this.steps.length - 1;
-      if ($("alone").checked || run.sections.moved_index) this.showDots();
+      if (run.sections.moved_index) this.showDots();
     }
     const exact = this.steps.findIndex((step) => step.bounce === bounce && step.name === name);
-    const near = this.steps.findLastIndex(
-      (step) => step.bounce <= bounce && (step.bounce < bounce || name !== "emission"),
-    );
-    this.go(exact >= 0 ? exact : Math.max(near, 0));
+    const near = this.steps.findLastIndex((step) =>
+      step.bounce <= bounce && (step.bounce < bounce || name !== "emission"));
+    this.go(exact >= 0 ? exact : near);
   },
 
   go(at) {
-    this.at = Math.min(Math.max(at, 0), this.steps.length - 1);
+    this.at = clamp(at, 0, this.steps.length - 1);
     const { bounce, name } = this.steps[this.at];
     this.link = `#photon=${this.photon}&bounce=${bounce}&step=${name}`;
     // Browsers refuse more than a few changes of the address a second.
@@ -63,8 +62,8 @@ const panelMethods = {
   /** Opens what the address names; says whether it names anything. */
   followLink() {
     if (location.hash === this.link) return true;
-    const link = new URLSearchParams(location.hash.slice(1)),
-      photon = Number(link.get("photon") ?? NaN);
+    const link = new URLSearchParams(location.hash.slice(1));
+    const photon = Number(link.get("photon") ?? NaN);
     if (!Number.isInteger(photon) || photon < 0) return false;
     this.open(photon, Number(link.get("bounce") ?? 0), link.get("step") ?? "emission");
     return this.photon !== null;
@@ -72,40 +71,33 @@ const panelMethods = {
 
   /** Goes to the photon `by` stored paths on. */
   skip(by) {
-    const { run } = this,
-      here = run.pathOfPhoton(this.photon);
-    let path = here + by;
-    while (path >= 0 && path < run.paths && run.firstStored[path + 1] === run.firstStored[path])
+    const { run } = this, { bounce, name } = this.steps[this.at];
+    let path = run.pathOfPhoton(this.photon) + by;
+    while (run.firstStored[path + 1] === run.firstStored[path] && path >= 0 && path < run.paths)
       path += by;
-    if (path >= 0 && path < run.paths)
-      this.open(run.photons[path], this.steps[this.at].bounce, this.steps[this.at].name);
+    if (path >= 0 && path < run.paths) this.open(run.photons[path], bounce, name);
   },
 
   /** Goes to the same step of the bounce before (-1) or after (1). */
   changeBounce(by) {
-    const { bounce, name } = this.steps[this.at],
-      other = bounce + by;
-    const of = this.steps.findIndex((step) => step.bounce === other && step.name === name);
-    const first = this.steps.findIndex((step) => step.bounce === other);
-    if (of >= 0 || first >= 0) this.go(of >= 0 ? of : first);
+    const { bounce, name } = this.steps[this.at];
+    const isThere = (step) => step.bounce === bounce + by;
+    const same = this.steps.findIndex((step) => isThere(step) && step.name === name);
+    const at = same >= 0 ? same : this.steps.findIndex(isThere);
+    if (at >= 0) this.go(at);
   },
 
   play(on) {
+    const next = () => (this.at + 1 < this.steps.length ? this.go(this.at + 1) : this.play(false));
     clearInterval(this.timer);
-    this.timer = on
-      ? setInterval(() => {
-          if (this.at + 1 < this.steps.length) this.go(this.at + 1);
-          else this.play(false);
-        }, 1800)
-      : null;
+    this.timer = on ? setInterval(next, 1800) : null;
     $("play").ariaPressed = String(on);
     $("play").textContent = on ? "Pause" : "Play";
     if (on && this.at + 1 === this.steps.length) this.go(0);
   },
 
   showStep() {
-    const { run, steps, at } = this,
-      step = steps[at];
+    const { run, steps, at } = this, step = steps[at];
     if (!step) return;
     const source = run.source.steps[step.name];
     $("photon").value = this.photon;
@@ -115,12 +107,9 @@ const panelMethods = {
     $("step-title").textContent = source.title;
     $("say").replaceChildren(...step.say.map((words) => make("p", { textContent: words })));
     $("drawing").replaceChildren(...(step.diagram ? [step.diagram()] : []));
-    $("more").replaceChildren(
-      ...step.more.flatMap(([name, value]) => [
-        make("dt", { textContent: name }),
-        make("dd", { textContent: value }),
-      ]),
-    );
+    const more = step.more.map(([name, value]) =>
+      [make("dt", { textContent: name }), make("dd", { textContent: value })]);
+    $("more").replaceChildren(...more.flat());
     this.showChips();
     this.showSides(step);
     showCode(run.source, source, step.values);
@@ -128,48 +117,37 @@ const panelMethods = {
   },
 
   showChips() {
-    const { steps, at, story } = this,
-      step = steps[at];
+    const { steps, at, run, story: { hits, ending } } = this;
+    const here = steps[at], last = steps.length - 1;
     const chip = (words, isHere, action) => {
       const button = make("button", { type: "button", textContent: words });
       if (isHere) button.setAttribute("aria-current", "step");
       button.addEventListener("click", action);
       return button;
     };
-    const ends = steps.at(-1);
-    const bounces = story.hits.map((hit) =>
-      chip(`${hit.bounce} ${hit.surface}`, step.bounce === hit.bounce, () =>
-        this.changeBounce(hit.bounce - step.bounce),
-      ),
-    );
-    if (ends.bounce === story.hits.length)
-      bounces.push(chip(ENDINGS[story.ending], step === ends, () => this.go(steps.length - 1)));
-    else bounces.push(make("span", { textContent: ENDINGS[story.ending] }));
+    const bounces = hits.map(({ bounce, surface }) =>
+      chip(`${bounce} ${surface}`, here.bounce === bounce, () =>
+        this.changeBounce(bounce - this.steps[this.at].bounce)));
+    const end = ENDINGS[ending];
+    bounces.push(steps[last].bounce === hits.length
+      ? chip(end, at === last, () => this.go(last))
+      : make("span", { textContent: end }));
     $("path").replaceChildren(make("span", { textContent: "Bounce" }), ...bounces);
-    $("names").replaceChildren(
-      ...steps.flatMap((other, i) =>
-        other.bounce === step.bounce
-          ? [chip(this.run.source.steps[other.name].short, i === at, () => this.go(i))]
-          : [],
-      ),
-    );
+    const names = steps.flatMap(({ bounce, name }, i) =>
+      bounce === here.bounce
+        ? [chip(run.source.steps[name].short, i === at, () => this.go(i))] : []);
+    $("names").replaceChildren(...names);
   },
 
   /** Whether the lists part at `step`. */
-  isDivergence(step) {
-    const { comparison } = this.run;
-    return (
-      comparison !== null &&
-      comparison.photon === this.photon &&
-      comparison.bounce === step.bounce &&
-      comparison.step === step.name
-    );
+  isDivergence({ bounce, name }) {
+    const parting = this.run.comparison;
+    return parting?.photon === this.photon && parting.bounce === bounce && parting.step === name;
   },
 
   /** Both lists' values side by side, at the step where they part. */
   showSides(step) {
-    const { comparison } = this.run,
-      isHere = this.isDivergence(step);
+    const { comparison } = this.run, isHere = this.isDivergence(step);
     $("sides").hidden = !isHere;
     if (!isHere) return;
     const row = (tag, cells) =>
@@ -177,44 +155,34 @@ const panelMethods = {
     $("sides").replaceChildren(
       make("caption", { textContent: "Here the lists part" }),
       row("th", ["", "reference", comparison.kind]),
-      ...comparison.sides.map((cells) => row("td", cells)),
-    );
+      ...comparison.sides.map((cells) => row("td", cells)));
   },
 };
 
 /** The port's functions of a step, its lines lit, values beside the lines that make them. */
 function showCode(source, step, values) {
-  const parts = step.parts.map((part) => {
+  const figures = step.parts.map((part) => {
     const { name, file, first, lines } = source.functions[part.function];
     const rows = lines.map((words, i) => {
+      const className = words.trim().startsWith("//") ? "comment" : "";
+      const code = make("code", { className, textContent: words || " " });
       const isLit = i >= part.lit[0] && i <= part.lit[1];
-      const row = make(
-        "li",
-        { value: first + i, className: isLit ? "lit" : "" },
-        make("code", {
-          className: words.trim().startsWith("//") ? "comment" : "",
-          textContent: words || " ",
-        }),
-      );
-      for (const [, value] of part.values.filter(
-        ([at, key]) => at === i && values[key] !== undefined,
-      )) {
-        const node = make("span", { className: "value", textContent: values[value] });
-        node.dataset.name = value;
-        row.append(node);
+      const row = make("li", { value: first + i, className: isLit ? "lit" : "" }, code);
+      for (const [at, key] of part.values) {
+        if (at !== i || values[key] === undefined) continue;
+        const value = make("span", { className: "value", textContent: values[key] });
+        value.dataset.name = key;
+        row.append(value);
       }
       return row;
     });
-    return make(
-      "figure",
-      {},
-      make("figcaption", {}, make("b", { textContent: name }), ` in ${file}`),
-      make("ol", {}, ...rows),
-    );
+    const caption = make("figcaption", {}, make("b", { textContent: name }), ` in ${file}`);
+    return make("figure", {}, caption, make("ol", {}, ...rows));
   });
-  $("code").replaceChildren(...parts);
+  $("code").replaceChildren(...figures);
+  // The line before those lit is the first in sight.
   for (const list of $("code").querySelectorAll("ol")) {
-    const lit = list.querySelector(".lit");
-    if (lit) list.scrollTop = lit.offsetTop - 28;
+    const before = list.querySelector(".lit")?.previousSibling;
+    list.scrollTop = before ? before.offsetTop : 0;
   }
 }

@@ -1,26 +1,12 @@
 // The box in 3-D: its colors, its shapes, and the programs of the graphics card.
 
 /** The names of all colors, in the order of the shader's palette. The style sheet has values. */
-const COLORS = [
-  "grey",
-  "one",
-  "two",
-  "three",
-  "four",
-  "red",
-  "missing",
-  "extra",
-  "moved",
-  "path",
-  "light",
-  "ink",
-  "t",
-  "b",
-  "n",
-  "edge",
-];
+const COLORS =
+  "grey one two three four red missing extra moved path light ink t b n edge".split(" ");
 /** The shapes of dots, in the order of the shader's cases. */
-const SHAPES = { circle: 0, square: 1, diamond: 2, triangle: 3, ring: 4, cross: 5 };
+const SHAPES = ["circle", "square", "diamond", "triangle", "ring", "cross"];
+/** A color and a shape as the first number of a dot's look. */
+const look = (color, shape) => COLORS.indexOf(color) | (SHAPES.indexOf(shape) << 4);
 
 const SURFACE_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
@@ -41,8 +27,9 @@ void main() {
 // (`polygonOffset` would do the same, but some drivers give other depths in every frame.)
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
-uniform mat4 camera; uniform vec3 eye, palette[16]; uniform float pixels, least, most, size, dim;
-uniform vec2 shift; uniform bool pick; flat out vec4 c; flat out uint shape; flat out float wide;
+uniform mat4 camera; uniform vec3 eye, palette[16]; uniform float pixels, least, most, large;
+uniform float size, dim; uniform vec2 shift; uniform bool pick;
+flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
   vec3 nearer = mix(position, eye, .006);
@@ -50,11 +37,12 @@ void main() {
   gl_Position.xy += shift * gl_Position.w;
   wide = clamp(size * pixels / gl_Position.w, least, most);
   if (state == 2u) wide = max(wide * 1.6, 4.);
+  if (state == 3u) wide = max(wide, large);
   gl_PointSize = wide;
   if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
   uint id = uint(gl_VertexID) + 1u;
   c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255.
-    : vec4(palette[look.x & 15u], state == 1u ? dim : 1.);
+    : vec4(palette[look.x & 15u], state == 2u ? 1. : dim);
 }`;
 const DOT_FRAGMENT = `#version 300 es
 precision highp float; flat in vec4 c; flat in uint shape; flat in float wide;

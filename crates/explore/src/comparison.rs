@@ -13,11 +13,18 @@ use serde_json::{Value, json};
 use variants::run::Run;
 use variants::section::Section;
 
+use super::misreading::Misreading;
+
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
 /// default of `compare`.
 const TOLERANCE: f32 = 1e-4;
 /// A page shows at most so many records that only the other list has, evenly thinned.
 const MOST_EXTRA: usize = 500_000;
+
+/// [`TOLERANCE`] in the scene of `run`, in world units.
+pub(crate) fn tolerance(run: &Run) -> f32 {
+    TOLERANCE * run.placement.length_to_world(scene_size(run.scene()))
+}
 
 /// A record closer than this to the hit before it, in world units, tells no direction.
 const NEAREST: f32 = 0.01;
@@ -25,19 +32,15 @@ const NEAREST: f32 = 0.01;
 /// What the other list is.
 #[derive(Clone, Debug)]
 pub enum Other {
-    /// A submission, by the name of its file.
-    Submission(String),
-    /// A misreading of the table.
-    Misreading {
-        /// Its name.
-        id: String,
-        /// What it does.
-        title: String,
-        /// The section of the handout that it misreads.
-        section: Section,
-        /// What to look at in the code.
-        advice: String,
+    /// A submission.
+    Submission {
+        /// The name of its file.
+        name: String,
+        /// The misreading that explains it.
+        misreading: Option<Misreading>,
     },
+    /// What a misreading of the table stores.
+    Misreading(Misreading),
 }
 
 /// A list held against the run's.
@@ -83,7 +86,7 @@ pub(crate) struct Overlay {
 impl ListComparison {
     /// Compares `submission` with `reference`, the list of `run`.
     pub fn new(other: Other, reference: PhotonList, submission: PhotonList, run: &Run) -> Self {
-        let tolerance = TOLERANCE * run.placement.length_to_world(scene_size(run.scene()));
+        let tolerance = tolerance(run);
         let report = compare(&reference, &submission, Some(run), tolerance, 0.0);
         let reference = with_bounces(&reference).into_owned();
         let submission = with_bounces(&submission).into_owned();
@@ -97,9 +100,18 @@ impl ListComparison {
     /// The name of the other list.
     pub fn name(&self) -> &str {
         match &self.other {
-            Other::Submission(name) => name,
-            Other::Misreading { id, .. } => id,
+            Other::Submission { name, .. } => name,
+            Other::Misreading(misreading) => misreading.id,
         }
+    }
+
+    /// What explains the difference, if it is a misreading of the table.
+    fn misreading(&self) -> Option<&Misreading> {
+        match &self.other {
+            Other::Submission { misreading, .. } => misreading.as_ref(),
+            Other::Misreading(misreading) => Some(misreading),
+        }
+        .filter(|_| self.report.outcome == Outcome::Different)
     }
 
     /// The photon at which the lists part first.
@@ -114,10 +126,8 @@ impl ListComparison {
 
     /// The section to which the difference belongs: of a misreading it is known.
     pub fn section(&self) -> Option<Section> {
-        match &self.other {
-            Other::Misreading { section, .. } => Some(*section),
-            Other::Submission(_) => self.report.first_divergence.as_ref()?.section,
-        }
+        let divergence = || self.report.first_divergence.as_ref()?.section;
+        self.misreading().map_or_else(divergence, |misreading| Some(misreading.section))
     }
 
     /// The photons of the records that only the other list has.
@@ -248,13 +258,20 @@ impl ListComparison {
         let found = divergence.and_then(|divergence| divergence.reason.clone()).unwrap_or_default();
         let doubt =
             if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
-        let note = || self.report.note.as_deref().map(sentence).unwrap_or_default();
-        let (kind, reason, advice) = match &self.other {
-            Other::Submission(_) if found.is_empty() => ("submission", String::new(), note()),
-            Other::Submission(_) => ("submission", sentence(&(found + doubt)), note()),
-            Other::Misreading { title, advice, .. } => {
-                ("misreading", sentence(title), advice.clone())
+        let note = self.report.note.as_deref().map(sentence).unwrap_or_default();
+        let kind = match &self.other {
+            Other::Submission { .. } => "submission",
+            Other::Misreading(_) => "misreading",
+        };
+        let (reason, advice) = match self.misreading() {
+            Some(Misreading { id, title, advice, .. }) if kind == "submission" => {
+                let reason =
+                    format!("{} This is what {id} of the misreadings stores.", sentence(title));
+                (reason, (*advice).to_owned())
             }
+            Some(Misreading { title, advice, .. }) => (sentence(title), (*advice).to_owned()),
+            None if found.is_empty() => (String::new(), note),
+            None => (sentence(&(found + doubt)), note),
         };
         json!({
             "kind": kind,

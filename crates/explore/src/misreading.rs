@@ -1,21 +1,47 @@
 //! What a run stores under a misreading of the table.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use compare::position_index::is_near;
 use fast::lanes::offset::Offset;
+use glam::Vec3;
 use model::facets::facets;
+use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
+use rayon::prelude::*;
 use variants::hypotheses::{self, Hypothesis};
 use variants::misreadings::by_marks;
 use variants::reading::Reading;
 use variants::run::Run;
+use variants::section::Section;
 use variants::variation::Simulation;
 
-use super::comparison::Other;
+use super::comparison::tolerance;
 
 /// A run with so few bounces allowed shows paths that end one bounce too early. With the handout's
 /// 1000, no path is that long.
 pub const FEW_BOUNCES: i32 = 3;
+
+/// So many photons are traced under every misreading to find the one that a list shows.
+const PHOTONS_TRIED: u64 = 20_000;
+/// A list that differs from the reference in fewer records than this shows no misreading.
+const FEWEST_WRONG: usize = 20;
+/// A misreading explains a list if it leaves at most this part of the wrong records wrong.
+const LEFT_WRONG: f64 = 0.02;
+
+/// A misreading of the table.
+#[derive(Clone, Debug)]
+pub struct Misreading {
+    /// Its name.
+    pub id: &'static str,
+    /// What it does.
+    pub title: String,
+    /// The section of the handout that it misreads.
+    pub section: Section,
+    /// What to look at in the code.
+    pub advice: &'static str,
+}
 
 /// Paths that come again are shown as of so many threads with one seed.
 const THREADS: u64 = 8;
@@ -54,14 +80,14 @@ fn stored(run: &Run, photons: Range<u64>) -> Vec<PhotonRecord> {
 
 /// What the misreading `name` is, and the records that `run`, a run of the handout's scene, stores
 /// under it; nothing if no misreading has this name. Its photons draw the numbers of the run.
-pub fn trace(name: &str, run: &Run) -> Option<(Other, Vec<PhotonRecord>)> {
+pub fn trace(name: &str, run: &Run) -> Option<(Misreading, Vec<PhotonRecord>)> {
     let hypothesis = table().into_iter().find(|hypothesis| hypothesis.id == name)?;
-    let misreading = hypothesis.misreading?;
-    let other = Other::Misreading {
-        id: hypothesis.id.to_owned(),
+    let advised = hypothesis.misreading?;
+    let misreading = Misreading {
+        id: hypothesis.id,
         title: hypothesis.title,
-        section: misreading.section,
-        advice: misreading.advice.to_owned(),
+        section: advised.section,
+        advice: advised.advice,
     };
     let emitted = run.renderer.emitted();
     let all = 0..emitted;
@@ -90,7 +116,7 @@ pub fn trace(name: &str, run: &Run) -> Option<(Other, Vec<PhotonRecord>)> {
         _ => None,
     };
     if let Some(records) = by_marks {
-        return Some((other, records));
+        return Some((misreading, records));
     }
     let renderer = &run.renderer;
     let simulation = Simulation::new(
@@ -109,5 +135,48 @@ pub fn trace(name: &str, run: &Run) -> Option<(Other, Vec<PhotonRecord>)> {
             record.surface = *surface;
         }
     }
-    Some((other, records))
+    Some((misreading, records))
+}
+
+/// The misreading under which `run`, a run of the handout's scene, stores what `list` has of its
+/// first photons. A list with other random numbers shows none.
+pub fn recognize(list: &PhotonList, run: &Run) -> Option<Misreading> {
+    let mut few = run.clone();
+    few.renderer.photon_count = few.renderer.photon_count.min(PHOTONS_TRIED);
+    let emitted = few.renderer.emitted();
+    let wrong = |traced: &[PhotonRecord]| wrong_records(list, traced, emitted, tolerance(run));
+    let without_any = wrong(&stored(&few, 0..emitted));
+    let most = (without_any as f64 * LEFT_WRONG) as usize;
+    let tried = names().into_par_iter().filter_map(|name| {
+        let (misreading, records) = trace(name, &few)?;
+        Some((wrong(&records), misreading)).filter(|(left, _)| *left <= most)
+    });
+    let best = || tried.min_by_key(|(left, _)| *left).map(|(_, misreading)| misreading);
+    (without_any >= FEWEST_WRONG).then(best).flatten()
+}
+
+/// How many records of the first `emitted` photons differ between `list` and `traced`, or are in
+/// only one of the two. A list that does not tell its photons is read in order.
+fn wrong_records(
+    list: &PhotonList,
+    traced: &[PhotonRecord],
+    emitted: u64,
+    tolerance: f32,
+) -> usize {
+    let tells_photons = list.columns.photon;
+    let mut paths: BTreeMap<u32, [Vec<Vec3>; 2]> = BTreeMap::new();
+    let mut add = |side: usize, record: &PhotonRecord| {
+        let path = if tells_photons { record.photon } else { 0 };
+        paths.entry(path).or_default()[side].push(record.position);
+    };
+    traced.iter().for_each(|record| add(0, record));
+    let most = if tells_photons { list.records.len() } else { traced.len() };
+    let of_list = list.records.iter().take(most);
+    let is_tried = |record: &&PhotonRecord| !tells_photons || u64::from(record.photon) < emitted;
+    of_list.filter(is_tried).for_each(|record| add(1, record));
+    let wrong = |[a, b]: &[Vec<Vec3>; 2]| {
+        let same = a.iter().zip(b).filter(|(a, b)| is_near(**a, **b, tolerance)).count();
+        a.len().max(b.len()) - same
+    };
+    paths.values().map(wrong).sum()
 }

@@ -27,6 +27,10 @@ fn traced(misreading: &str) -> Traced {
     Traced::of(run, Some(&ExpectedTable::of_assignment8()))
 }
 
+fn submission(name: &str) -> Other {
+    Other::Submission { name: name.to_owned(), misreading: None }
+}
+
 #[test]
 fn every_misreading_opens_where_it_differs() {
     let Some(browser) = launch(true) else { return };
@@ -34,11 +38,17 @@ fn every_misreading_opens_where_it_differs() {
     assert_eq!(names.len(), variants::misreadings::names().len());
     for name in names {
         let reference = traced(name);
-        let (other, records) = misreading::trace(name, &reference.run).expect("it is in the table");
-        let Other::Misreading { section, .. } = other else { panic!("{name} is a misreading") };
+        let (misreading, records) =
+            misreading::trace(name, &reference.run).expect("it is in the table");
+        let section = misreading.section;
         let title = section.title();
         let list = PhotonList { records: records.clone(), ..reference.list() };
-        let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
+        let comparison = ListComparison::new(
+            Other::Misreading(misreading),
+            reference.list(),
+            list,
+            &reference.run,
+        );
         let page = write_page(name, &reference.exploration(Some(&comparison)).page());
         browser.open(&page, "");
         let text = |id: &str| browser.text(&format!("document.getElementById('{id}').textContent"));
@@ -92,7 +102,7 @@ fn a_submission_shows_where_it_parts() {
     let mut extra = list.records[900];
     extra.position.z += 0.5;
     list.records.insert(900, extra);
-    let other = Other::Submission("mine.csv".to_owned());
+    let other = submission("mine.csv");
     let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
     let page = write_page("positions", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
@@ -103,13 +113,15 @@ fn a_submission_shows_where_it_parts() {
     assert!(browser.text("document.getElementById('sides').textContent").contains("submission"));
     // The line leads from where the photon is to where it should be.
     assert_eq!(browser.run("page.view.layers.moved.count"), 1);
+    // So few dots that differ are large: the one that moved at both of its places.
+    assert_eq!(browser.run("page.looks.filter((look, i) => i % 2 && look === 3).length"), 4);
     // Elsewhere, and back by the button.
     browser.press("n");
     browser.click_on("#divergence");
     browser.wait_for(&format!("page.photon === {}", reference.records[10].photon));
     browser.has_been_quiet();
 
-    let other = Other::Submission("same.csv".to_owned());
+    let other = submission("same.csv");
     let same = ListComparison::new(other, reference.list(), reference.list(), &reference.run);
     let page = write_page("same", &reference.exploration(Some(&same)).page());
     browser.open(&page, "");
@@ -130,7 +142,7 @@ fn hostile_names_stay_names() {
     reference.table.0[0].name = name.to_owned();
     let mut list = reference.list();
     list.records[10].position.x += 0.2;
-    let other = Other::Submission(name.to_owned());
+    let other = submission(name);
     let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
     let page = write_page("hostile", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
@@ -145,4 +157,34 @@ fn hostile_names_stay_names() {
          'window.hurt = 2' }))",
     );
     assert_eq!(browser.run("window.hurt"), json!(null));
+}
+
+#[test]
+fn a_submission_that_shows_a_misreading_is_told_so() {
+    // Each trial traces the whole table, so not all are tried; half do not tell their photons.
+    let some = misreading::names().into_iter().filter(|name| *name != "repeated-paths").step_by(4);
+    for (name, tells_photons) in some.chain(["third-hit-on"]).zip([true, false].into_iter().cycle())
+    {
+        let reference = traced(name);
+        let (_, records) = misreading::trace(name, &reference.run).expect("it is in the table");
+        let mut list = PhotonList { records, ..reference.list() };
+        list.columns.photon = tells_photons;
+        let misreading = misreading::recognize(&list, &reference.run).expect(name);
+        assert_eq!(misreading.id, name);
+        let expected = format!("\"verdict\":\"mine.csv: {}\"", misreading.section.title());
+        let mine = Other::Submission { name: "mine.csv".into(), misreading: Some(misreading) };
+        let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
+        let page = reference.exploration(Some(&comparison)).page();
+        assert!(page.contains(&expected), "{name}: {expected}");
+        assert!(page.contains(&format!("This is what {name} of the misreadings stores.")));
+    }
+    // The reference itself shows none, nor does a list that breaks off or has other numbers.
+    let reference = traced("");
+    let shows = |list: &PhotonList| misreading::recognize(list, &reference.run).map(|it| it.id);
+    let mut list = reference.list();
+    assert_eq!(shows(&list), None);
+    list.records.truncate(500);
+    assert_eq!(shows(&list), None);
+    let other = Traced::of(Run::handout(1, PHOTONS), None);
+    assert_eq!(shows(&other.list()), None);
 }

@@ -4,33 +4,15 @@ mod browser;
 mod support;
 
 use std::collections::HashSet;
-use std::path::PathBuf;
-use std::sync::OnceLock;
 use std::time::Instant;
 
-use browser::{Browser, launch};
+use browser::launch;
 use compare::explain::{Hit, Story, explain};
 use explore::Exploration;
 use photon_mapping::assignment8;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
 use serde_json::{Value, json};
-use support::{Traced, float, write_page};
-
-/// The run of the handout, and its page.
-fn handout() -> &'static (Traced, PathBuf) {
-    static PAGE: OnceLock<(Traced, PathBuf)> = OnceLock::new();
-    PAGE.get_or_init(|| {
-        let run = Traced::new(1_000_000);
-        let path = write_page("handout", &run.exploration(None).page());
-        (run, path)
-    })
-}
-
-fn open_handout(link: &str) -> Option<Browser> {
-    let browser = launch(true)?;
-    browser.open(&handout().1, link);
-    Some(browser)
-}
+use support::{Traced, float, handout, open_handout, write_page};
 
 /// Each step of the photon that is open: its bounce, name, values beside the code, and other
 /// values.
@@ -266,6 +248,11 @@ fn a_link_restores_its_step() {
     );
     browser.run("location.hash = '#photon=99999999999'");
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");
+    // So it is when the page opens on such a link, beside the story of the first photon.
+    browser.open(&handout().1, "#photon=74");
+    let no_story = browser.text("document.getElementById('no-story').textContent");
+    assert!(no_story.contains("explore --photon 74"), "{no_story}");
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=emission");
     browser.has_been_quiet();
 }
 
@@ -302,68 +289,6 @@ fn the_mouse_turns_zooms_and_centers() {
 }
 
 #[test]
-fn the_keyboard_alone_is_enough() {
-    let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
-    let link = || browser.text("page.link");
-    for (key, then) in [
-        ("ArrowRight", "bounce=0&step=hit"),
-        ("ArrowRight", "bounce=0&step=stored"),
-        ("ArrowDown", "bounce=1&step=stored"),
-        ("ArrowUp", "bounce=0&step=stored"),
-        ("ArrowLeft", "bounce=0&step=hit"),
-    ] {
-        browser.press(key);
-        assert_eq!(link(), format!("#photon=73&{then}"));
-    }
-    browser.press("n");
-    assert_ne!(link(), "#photon=73&bounce=0&step=hit");
-    browser.press("p");
-    assert_eq!(link(), "#photon=73&bounce=0&step=hit");
-    browser.press(" ");
-    browser.wait_for("document.getElementById('play').ariaPressed === 'true'");
-    browser.wait_for("location.hash === '#photon=73&bounce=0&step=stored'");
-    browser.press(" ");
-    let distance = || float(&browser.run("page.view.camera.distance"));
-    let before = distance();
-    browser.press("+");
-    assert!(distance() < before);
-    browser.press("h");
-    assert!((distance() - 4.1469).abs() < 1e-4);
-    // Every control is reached by Tab, and what is reached shows it.
-    let mut reached = Vec::new();
-    for _ in 0..80 {
-        browser.press("Tab");
-        reached.push(browser.text("document.activeElement.id || document.activeElement.tagName"));
-    }
-    for id in [
-        "view", "home", "center", "colors", "walls", "alone", "dots", "previous", "photon", "next",
-        "play", "slider",
-    ] {
-        assert!(reached.iter().any(|name| name == id), "{id}: {reached:?}");
-    }
-    // A number is typed and Enter opens it; its arrows are the field's own.
-    browser.run(
-        "document.getElementById('photon').focus(); document.getElementById('photon').select()",
-    );
-    "253".chars().for_each(|digit| browser.press(&digit.to_string()));
-    browser.press("Enter");
-    assert_eq!(link(), "#photon=253&bounce=0&step=emission");
-    // A cell of the table lights its photons, and Enter keeps them alone.
-    browser.run("document.querySelector('#table td button').focus()");
-    let states = |state: u8| {
-        float(&browser.run(&format!(
-            "page.looks.filter((look, i) => i % 2 === 1 && look === {state}).length"
-        ))) as u64
-    };
-    let of_cell = handout().0.table.0[0].by_bounce[0].stored;
-    assert_eq!(states(2), of_cell);
-    browser.press("Enter");
-    assert_eq!(states(0), handout().0.records.len() as u64 - of_cell);
-    browser.has_been_quiet();
-}
-
-#[test]
 fn table_and_filters_show_what_they_say() {
     let Some(browser) = open_handout("") else { return };
     let (surfaces, total) = &handout().0.table;
@@ -395,91 +320,6 @@ fn table_and_filters_show_what_they_say() {
          Event('input')); }",
     );
     assert_eq!(shown(), "1 photon shown.");
-    browser.has_been_quiet();
-}
-
-#[test]
-fn it_works_on_a_phone() {
-    let Some(browser) = launch(true) else { return };
-    browser.size(390, 844);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
-    for scheme in ["light", "dark"] {
-        browser.media("prefers-color-scheme", scheme);
-        for step in ["emission", "hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
-            browser.run(&format!("location.hash = '#photon=73&bounce=0&step={step}'"));
-            browser.settle();
-            assert_eq!(browser.run("document.documentElement.scrollWidth"), 390, "{step}");
-        }
-    }
-    browser.media("prefers-reduced-motion", "reduce");
-    let place = browser.run(
-        "(() => { const b = [...document.querySelectorAll('#names button')].find((b) => \
-         b.textContent === 'Roulette'); b.scrollIntoView({ block: 'center' }); const r = \
-         b.getBoundingClientRect(); return [r.x + 9, r.y + 9]; })()",
-    );
-    browser.tap(float(&place[0]), float(&place[1]));
-    browser.wait_for("location.hash.endsWith('step=roulette')");
-    browser.has_been_quiet();
-}
-
-#[test]
-fn without_webgl_the_rest_works() {
-    let Some(browser) = launch(false) else { return };
-    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
-    assert!(browser.text("document.getElementById('trouble').textContent").contains("WebGL"));
-    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
-    assert_eq!(browser.run("document.getElementById('view').hidden"), true);
-    browser.press("ArrowRight");
-    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
-    browser.click_on("#table td button");
-    browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
-    browser.has_been_quiet();
-}
-
-#[test]
-fn two_fingers_zoom_and_one_turns() {
-    let Some(browser) = launch(true) else { return };
-    browser.size(390, 844);
-    browser.media("prefers-reduced-motion", "reduce");
-    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
-    let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
-    let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
-    let place = "(() => { const r = page.view.canvas.getBoundingClientRect(); \
-                 return [r.x + r.width / 2, r.y + r.height / 2]; })()";
-    let place = browser.run(place);
-    browser.pinch(float(&place[0]), float(&place[1]), 80.0, 160.0);
-    let halved = of_camera("distance") / distance;
-    assert!((halved - 0.5).abs() < 0.05, "{halved}");
-    assert_eq!(of_camera("yaw"), yaw);
-    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=emission");
-    browser.has_been_quiet();
-}
-
-#[test]
-fn it_fills_a_projector() {
-    let Some(browser) = launch(true) else { return };
-    browser.size(1920, 1080);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
-    let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
-    assert_eq!(browser.run(is_too_wide), false);
-    let edge = |selector: &str, edge: &str| {
-        let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
-        float(&browser.run(&format!("{node}.{edge}")))
-    };
-    assert!(edge("#view", "width") > 900.0, "{}", edge("#view", "width"));
-    assert!(edge("#code .lit", "bottom") < 1080.0, "{}", edge("#code .lit", "bottom"));
-    browser.has_been_quiet();
-}
-
-#[test]
-fn a_lost_graphics_context_leaves_picture_table_and_story() {
-    let Some(browser) = open_handout("#photon=73&bounce=0&step=roulette") else { return };
-    browser.run("page.view.gl.getExtension('WEBGL_lose_context').loseContext()");
-    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
-    browser.press("ArrowRight");
-    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
-    browser.click_on("#table td button");
-    browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
     browser.has_been_quiet();
 }
 

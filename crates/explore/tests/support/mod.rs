@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "no test uses all of it")]
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use explore::Exploration;
 use explore::comparison::ListComparison;
@@ -17,6 +18,8 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_map::PhotonMap;
 use serde_json::Value;
 use variants::run::Run;
+
+use crate::browser::{Browser, launch};
 
 /// A run of the handout with its list, table and picture.
 pub struct Traced {
@@ -84,4 +87,21 @@ pub fn write_page(name: &str, page: &str) -> PathBuf {
 /// The number `value`.
 pub fn float(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// The run of the handout, and its page.
+pub fn handout() -> &'static (Traced, PathBuf) {
+    static PAGE: OnceLock<(Traced, PathBuf)> = OnceLock::new();
+    PAGE.get_or_init(|| {
+        let run = Traced::new(1_000_000);
+        let path = write_page("handout", &run.exploration(None).page());
+        (run, path)
+    })
+}
+
+/// The page of the handout at `link`, in a browser if there is one.
+pub fn open_handout(link: &str) -> Option<Browser> {
+    let browser = launch(true)?;
+    browser.open(&handout().1, link);
+    Some(browser)
 }

@@ -1,0 +1,227 @@
+//! The page for everyone: by keyboard and by touch, on small and large screens, for the color-blind,
+//! with less motion, and without WebGL.
+
+mod browser;
+mod support;
+
+use browser::launch;
+use support::{float, handout, open_handout};
+
+#[test]
+fn the_keyboard_alone_is_enough() {
+    let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
+    browser.media("prefers-reduced-motion", "reduce");
+    let link = || browser.text("page.link");
+    for (key, then) in [
+        ("ArrowRight", "bounce=0&step=hit"),
+        ("ArrowRight", "bounce=0&step=stored"),
+        ("ArrowDown", "bounce=1&step=stored"),
+        ("ArrowUp", "bounce=0&step=stored"),
+        ("ArrowLeft", "bounce=0&step=hit"),
+    ] {
+        browser.press(key);
+        assert_eq!(link(), format!("#photon=73&{then}"));
+    }
+    browser.press("n");
+    assert_ne!(link(), "#photon=73&bounce=0&step=hit");
+    browser.press("p");
+    assert_eq!(link(), "#photon=73&bounce=0&step=hit");
+    browser.press(" ");
+    browser.wait_for("document.getElementById('play').ariaPressed === 'true'");
+    browser.wait_for("location.hash === '#photon=73&bounce=0&step=stored'");
+    browser.press(" ");
+    let distance = || float(&browser.run("page.view.camera.distance"));
+    let before = distance();
+    browser.press("+");
+    assert!(distance() < before);
+    browser.press("h");
+    assert!((distance() - 4.1469).abs() < 1e-4);
+    // Every control is reached by Tab, and what is reached shows it.
+    let mut reached = Vec::new();
+    for _ in 0..80 {
+        browser.press("Tab");
+        reached.push(browser.text("document.activeElement.id || document.activeElement.tagName"));
+    }
+    for id in [
+        "view", "home", "center", "colors", "walls", "dots", "previous", "photon", "next", "play",
+        "slider",
+    ] {
+        assert!(reached.iter().any(|name| name == id), "{id}: {reached:?}");
+    }
+    // A number is typed and Enter opens it; its arrows are the field's own.
+    browser.run(
+        "document.getElementById('photon').focus(); document.getElementById('photon').select()",
+    );
+    "253".chars().for_each(|digit| browser.press(&digit.to_string()));
+    browser.press("Enter");
+    assert_eq!(link(), "#photon=253&bounce=0&step=emission");
+    // A cell of the table lights its photons, and Enter keeps them alone.
+    browser.run("document.querySelector('#table td button').focus()");
+    let states = |state: u8| {
+        float(&browser.run(&format!(
+            "page.looks.filter((look, i) => i % 2 === 1 && look === {state}).length"
+        ))) as u64
+    };
+    let of_cell = handout().0.table.0[0].by_bounce[0].stored;
+    assert_eq!(states(2), of_cell);
+    browser.press("Enter");
+    assert_eq!(states(0), handout().0.records.len() as u64 - of_cell);
+    browser.has_been_quiet();
+}
+
+#[test]
+fn it_works_on_a_phone() {
+    let Some(browser) = launch(true) else { return };
+    browser.size(390, 844);
+    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    for scheme in ["light", "dark"] {
+        browser.media("prefers-color-scheme", scheme);
+        for step in ["emission", "hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
+            browser.run(&format!("location.hash = '#photon=73&bounce=0&step={step}'"));
+            browser.settle();
+            assert_eq!(browser.run("document.documentElement.scrollWidth"), 390, "{step}");
+        }
+    }
+    browser.media("prefers-reduced-motion", "reduce");
+    let place = browser.run(
+        "(() => { const b = [...document.querySelectorAll('#names button')].find((b) => \
+         b.textContent === 'Roulette'); b.scrollIntoView({ block: 'center' }); const r = \
+         b.getBoundingClientRect(); return [r.x + 9, r.y + 9]; })()",
+    );
+    browser.tap(float(&place[0]), float(&place[1]));
+    browser.wait_for("location.hash.endsWith('step=roulette')");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn without_webgl_the_rest_works() {
+    let Some(browser) = launch(false) else { return };
+    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    assert!(browser.text("document.getElementById('trouble').textContent").contains("WebGL"));
+    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    assert_eq!(browser.run("document.getElementById('view').hidden"), true);
+    browser.press("ArrowRight");
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
+    browser.click_on("#table td button");
+    browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn two_fingers_zoom_and_one_turns() {
+    let Some(browser) = launch(true) else { return };
+    browser.size(390, 844);
+    browser.media("prefers-reduced-motion", "reduce");
+    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
+    let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
+    let place = "(() => { const r = page.view.canvas.getBoundingClientRect(); \
+                 return [r.x + r.width / 2, r.y + r.height / 2]; })()";
+    let place = browser.run(place);
+    browser.pinch(float(&place[0]), float(&place[1]), 80.0, 160.0);
+    let halved = of_camera("distance") / distance;
+    assert!((halved - 0.5).abs() < 0.05, "{halved}");
+    assert_eq!(of_camera("yaw"), yaw);
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=emission");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn it_fills_a_projector() {
+    let Some(browser) = launch(true) else { return };
+    browser.size(1920, 1080);
+    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
+    assert_eq!(browser.run(is_too_wide), false);
+    let edge = |selector: &str, edge: &str| {
+        let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
+        float(&browser.run(&format!("{node}.{edge}")))
+    };
+    assert!(edge("#view", "width") > 900.0, "{}", edge("#view", "width"));
+    assert!(edge("#code .lit", "bottom") < 1080.0, "{}", edge("#code .lit", "bottom"));
+    browser.has_been_quiet();
+}
+
+#[test]
+fn a_lost_graphics_context_leaves_picture_table_and_story() {
+    let Some(browser) = open_handout("#photon=73&bounce=0&step=roulette") else { return };
+    browser.run("page.view.gl.getExtension('WEBGL_lose_context').loseContext()");
+    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    browser.press("ArrowRight");
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
+    browser.click_on("#table td button");
+    browser.wait_for("document.getElementById('shown').textContent.includes('shortBox, bounce 1')");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn the_camera_flies_only_where_motion_is_welcome() {
+    let Some(browser) = open_handout("#photon=73") else { return };
+    let is_home = "Math.abs(page.view.camera.distance - page.run.camera.distance) < 1e-6";
+    let after_home = || {
+        browser.run("page.view.look({ distance: 9 })");
+        browser.run(&format!("document.getElementById('home').click(); {is_home}"))
+    };
+    browser.media("prefers-reduced-motion", "no-preference");
+    assert_eq!(after_home(), false);
+    browser.wait_for(is_home);
+    browser.media("prefers-reduced-motion", "reduce");
+    assert_eq!(after_home(), true);
+    browser.has_been_quiet();
+}
+
+#[test]
+fn shapes_tell_what_colors_tell() {
+    let Some(browser) = open_handout("#photon=73") else { return };
+    // The pixels that a mark of each shape colors, all in one color.
+    let pixels = "(() => { const v = page.view, gl = v.gl, drawn = {}; v.setLines('path', []); \
+         v.setDots(page.positions, new Uint8Array(page.looks.length), page.faceOf); \
+         for (const shape of ['circle', 'square', 'diamond', 'triangle', 'ring', 'cross']) { \
+         v.setMarks([{ at: v.camera.target, color: 'red', shape }]); v.drawNow(); \
+         const all = new Uint8Array(4 * v.canvas.width * v.canvas.height); \
+         gl.readPixels(0, 0, v.canvas.width, v.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, all); \
+         drawn[shape] = []; for (let i = 0; i < all.length; i += 4) \
+         if (all[i] > all[i + 1] + 60 && all[i] > all[i + 2] + 60) drawn[shape].push(i); } \
+         return drawn; })()";
+    let pixels = browser.run(pixels);
+    let of_shapes: Vec<_> = pixels.as_object().expect("pixels for each shape").values().collect();
+    assert!(of_shapes.iter().all(|pixels| pixels.as_array().is_some_and(|all| all.len() > 20)));
+    for (i, pixels) in of_shapes.iter().enumerate() {
+        assert!(!of_shapes[..i].contains(pixels), "{pixels}");
+    }
+    // No two entries of a legend have one shape.
+    for mode in ["bounce", "surface"] {
+        browser.run(&format!(
+            "(() => {{ const colors = document.getElementById('colors'); colors.value = '{mode}'; \
+             colors.dispatchEvent(new Event('input')); }})()"
+        ));
+        let shapes = "new Set([...document.querySelectorAll('#legend svg')].map((svg) => \
+                      svg.innerHTML)).size";
+        assert_eq!(browser.run(shapes), 4, "{mode}");
+        let drawn =
+            "new Set(page.looks.filter((look, i) => i % 2 === 0).map((look) => look >> 4)).size";
+        assert_eq!(browser.run(drawn), 4, "{mode}");
+    }
+    browser.has_been_quiet();
+}
+
+#[test]
+fn no_label_covers_another() {
+    let Some(browser) = open_handout("") else { return };
+    let overlaps = "(() => { const boxes = [...document.querySelectorAll('#labels span')].filter((span) \
+         => !span.hidden).map((span) => span.getBoundingClientRect()); return boxes.some((a, i) => \
+         boxes.some((b, j) => i < j && a.left < b.right && b.left < a.right && a.top < b.bottom && \
+         b.top < a.bottom)); })()";
+    let mut steps = 0;
+    for photon in [73, 85, 3101] {
+        browser.run(&format!("page.open({photon}, 0, 'emission')"));
+        let count = float(&browser.run("page.steps.length")) as usize;
+        for step in 0..count {
+            browser.run(&format!("page.go({step})"));
+            browser.settle();
+            assert_eq!(browser.run(overlaps), false, "photon {photon}, step {step}");
+        }
+        steps += count;
+    }
+    assert!(steps > 30, "{steps}");
+}
