@@ -1,5 +1,6 @@
 //! `photon-mapping check`: compiles and runs the two C++ files of a submission, section by section.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -9,6 +10,7 @@ use check::sandbox::has_bubblewrap;
 use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
+use grading::intake::class::left_out;
 use grading::page::{Pages, index::Index};
 use grading::text::verdict_in_words;
 use grading::verdict::Grade;
@@ -17,9 +19,9 @@ use photon_mapping::assignment8;
 use rayon::prelude::*;
 
 use super::error::{CliError, print};
-use super::grade::{INDEX, file_names, json, made_by, refuse_others};
+use super::grade::{INDEX, json, made_by, places_of_each};
 use super::gradebook::without_formula;
-use super::output::{OutputFile, write};
+use super::output::{OutputFile, protect, write};
 use super::{progress, values};
 
 const CSV_HEADER: &str = "submission,verdict,score,misreadings,builds,emission,storage,scattering,\
@@ -99,6 +101,8 @@ struct Checked {
     /// The name and the text of the file of its own, in formats that have one.
     file: String,
     output: String,
+    /// What could not be written.
+    problems: Vec<CliError>,
 }
 
 /// Checks, and prints a report for every submission in order.
@@ -111,17 +115,18 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         let found = paths.len();
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
     }
-    let extension = arguments.format.of_each().filter(|_| paths.len() > 1);
-    if extension.is_some() && arguments.out.as_ref().is_none_or(|out| out.is_file()) {
-        let message =
-            format!("--out: expected a folder for a file of each of {} submissions", paths.len());
-        return Err(CliError::Argument(message));
-    }
     // As a submission is called when it was found.
     let names: Vec<String> = paths.iter().map(|path| name_of(path)).collect();
-    let files = file_names(names.iter().map(String::as_str), extension.unwrap_or_default());
-    if let (Some(extension), Some(folder)) = (extension, &arguments.out) {
-        refuse_others(folder, &files, extension)?;
+    let (folder, files) = places_of_each(
+        arguments.format.of_each(),
+        arguments.out.as_deref(),
+        names.iter().map(String::as_str),
+        paths.len(),
+    )?;
+    let found: Vec<Result<CppSubmission, CliError>> =
+        paths.iter().map(|path| CppSubmission::find(path).map_err(argument)).collect();
+    for submission in found.iter().flatten() {
+        protect(submission.light.iter().chain(&submission.renderer).chain(&submission.headers));
     }
     if !has_bubblewrap() {
         super::complain(
@@ -141,15 +146,13 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         policy: super::grade::policy(arguments.policy.as_deref())?,
     };
     let expectations = super::grade::expectations(assignment8::MAX_PHOTON_BOUNCES);
-    let has_index = extension.is_some();
-    let pages = Pages::new(&expectations, &grading.policy, has_index);
+    let pages = Pages::new(&expectations, &grading.policy, folder.is_some());
     let best = grading.policy.best();
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
-    let one = |(path, file): (&PathBuf, String)| -> Result<Checked, CliError> {
-        let submission = CppSubmission::find(path).map_err(argument)?;
-        let report = check(&submission, &kit, &settings).map_err(argument)?;
+    let one = |(found, file): (Result<CppSubmission, CliError>, String)| {
+        let report = check(&found?, &kit, &settings).map_err(argument)?;
         let graded = check::grade::grade(&report, &grading, &expectations);
-        let output = match arguments.format {
+        let mut output = match arguments.format {
             CheckFormat::Html => {
                 let name = report.submission.clone();
                 let of_list = grading::submission::Submission { name, ..Default::default() };
@@ -158,37 +161,41 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             CheckFormat::Gradescope => json(&gradescope::results(&graded.grade, &grading.policy)),
             _ => String::new(),
         };
-        if let Some(path) = &arguments.list {
-            write_list(path, &report)?;
-        }
+        // What cannot be written costs no grade.
+        let page = folder.as_ref().map(|folder| folder.join(&file));
+        let written = page.map(|page| write(&page, std::mem::take(&mut output)));
+        let listed = arguments.list.as_ref().map(|path| write_list(path, &report));
+        let problems = [written, listed].into_iter().flatten().filter_map(Result::err).collect();
         bar.inc(1);
         let report = CheckReport { list: None, ..report };
-        Ok(Checked { report, grade: graded.grade, file, output })
+        Ok(Checked { report, grade: graded.grade, file, output, problems })
     };
-    let results: Vec<Result<Checked, CliError>> = paths.par_iter().zip(files).map(one).collect();
+    let results: Vec<Result<Checked, CliError>> =
+        found.into_par_iter().zip(files).map(one).collect();
     bar.finish_and_clear();
-    let mut failed = 0;
+    let mut problems = Vec::new();
     let mut all = Vec::new();
     for result in results {
         match result {
-            Ok(checked) => all.push(checked),
-            Err(error) => {
-                failed += 1;
-                super::complain(&format!("error: {error}"));
+            Ok(mut checked) => {
+                problems.append(&mut checked.problems);
+                all.push(checked);
             }
+            Err(error) => problems.push(error),
         }
     }
-    match (extension, &arguments.out) {
-        (Some(extension), Some(folder)) => write_each(&all, folder, extension, best)?,
-        (_, out) => {
-            let text = together(arguments.format, &all, best);
-            match out {
-                Some(path) => write(path, &text)?,
-                None => print(&text)?,
-            }
+    problems.iter().for_each(|error| super::complain(&format!("error: {error}")));
+    match (&folder, &arguments.out) {
+        (Some(folder), _) if arguments.format == CheckFormat::Html => {
+            let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
+            let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
+            write(&folder.join(INDEX), index.page())?;
         }
+        (Some(_), _) => {}
+        (None, Some(path)) => write(path, together(arguments.format, &all, best))?,
+        (None, None) => print(&together(arguments.format, &all, best))?,
     }
-    Ok(if failed > 0 { super::FAILED } else { 0 })
+    Ok(if problems.is_empty() { 0 } else { super::FAILED })
 }
 
 fn argument(error: check::error::CheckError) -> CliError {
@@ -200,22 +207,23 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
         arguments.submissions.iter().try_for_each(|path| refuse_class(path)).map_err(argument)?;
         return Ok(arguments.submissions.clone());
     }
-    let classes = arguments.submissions.iter().map(|path| CppSubmission::of_class(path));
-    let classes: Vec<_> = classes.collect::<Result<_, _>>().map_err(argument)?;
-    Ok(classes.into_iter().flatten().collect())
-}
-
-/// A file for each submission in `folder`; for pages, one more that leads to them.
-fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Result<(), CliError> {
-    for checked in all {
-        write(&folder.join(&checked.file), &checked.output)?;
+    let mut all = Vec::new();
+    for class in &arguments.submissions {
+        let students = CppSubmission::of_class(class).map_err(argument)?;
+        let entries = fs::read_dir(class).into_iter().flatten().flatten();
+        let paths = entries.map(|entry| entry.path());
+        let mut others: Vec<PathBuf> = paths.filter(|path| !students.contains(path)).collect();
+        others.sort();
+        let note = left_out(class, &others, "no folder of a student");
+        note.iter().for_each(|note| super::complain(&format!("note: {note}")));
+        if students.is_empty() {
+            let class = class.display();
+            let message = format!("{class}: expected a folder for each student, found none");
+            return Err(CliError::Argument(message));
+        }
+        all.extend(students);
     }
-    if extension == "html" {
-        let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
-        let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
-        write(&folder.join(INDEX), index.page())?;
-    }
-    Ok(())
+    Ok(all)
 }
 
 /// All reports in one text.

@@ -34,7 +34,7 @@ use std::sync::OnceLock;
 
 use clap::{FromArgMatches, Parser, Subcommand};
 
-use error::escaped;
+use error::{CliError, escaped};
 
 /// The exit code of everything that could not be done.
 const FAILED: u8 = 2;
@@ -131,9 +131,14 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) if !error.use_stderr() => {
-            // Help and version; a closed pipe is the reader's choice.
-            let _ = error.print();
-            return 0;
+            // Help and version.
+            return match error.print().and_then(|()| std::io::stdout().flush()) {
+                Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                    complain(&format!("error: {}", CliError::Output(error)));
+                    FAILED
+                }
+                _ => 0,
+            };
         }
         Err(error) => {
             complain(&with_tips(&error.to_string()));

@@ -81,6 +81,74 @@ fn a_class_gets_a_page_each_and_an_index() {
     let results = json(run_line("check {} --format gradescope", &[&bob]).success());
     assert_eq!(results["score"], 0.0, "{results}");
     fails("check {} {} --format html", &[&bob, &bob], &["--out", "expected a folder"]);
+    // As for grade: no file is made a folder, and no source is overwritten.
+    let html = folder.path().join("page.html");
+    let line = "check {} {} --format html --out {}";
+    fails(line, &[&bob, &bob, &html], &["page.html", "the name of a file", "FOLDER"]);
+    fails(line, &[&bob, &bob, &bob.join("PointLight.cpp")], &["found a file"]);
+}
+
+/// Builds nothing, so it takes no time to check.
+fn broken(class: &Path, student: &str) -> PathBuf {
+    let home = class.join(student);
+    fs::create_dir_all(&home).expect("can be made");
+    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+        fs::write(home.join(name), "#error no solution\n").expect("can be written");
+    }
+    home
+}
+
+#[test]
+fn what_cannot_be_written_costs_no_other_its_page() {
+    let folder = folder();
+    let (class, pages) = (folder.path().join("class"), folder.path().join("pages"));
+    let formula = "=HYPERLINK(1)";
+    for student in ["amy", "bob", formula] {
+        broken(&class, student);
+    }
+    for name in [".eve/PointLight.cpp", "zoe_PointLight.cpp"] {
+        fs::create_dir_all(class.join(name).parent().expect("a folder")).expect("can be made");
+        fs::write(class.join(name), "").expect("can be written");
+    }
+    let table = run_line("check --class {} --quiet --format csv", &[&class]);
+    let errors = String::from_utf8_lossy(&table.get_output().stderr).into_owned();
+    if errors.contains("no C++ compiler") || errors.contains("does not find glm") {
+        assert!(std::env::var_os("CI").is_none(), "{errors}");
+        eprintln!("skipped: {errors}");
+        return;
+    }
+    assert!(errors.contains("left out: .eve, zoe_PointLight.cpp"), "{errors}");
+    let table = stdout(table.success());
+    assert!(table.contains("\n\"'=HYPERLINK(1)\","), "no formula for spreadsheets: {table}");
+    // A full disk, a read-only file, a folder.
+    fs::create_dir_all(pages.join("bob.html")).expect("can be made");
+    std::os::unix::fs::symlink("/dev/full", pages.join("amy.html")).expect("can be linked");
+    let checked = run_line("check --class {} --quiet --format html --out {}", &[&class, &pages]);
+    let errors = String::from_utf8_lossy(&checked.code(2).get_output().stderr).into_owned();
+    for page in ["amy.html", "bob.html"] {
+        let is_told = |line: &str| line.contains(page) && line.contains("cannot be written");
+        assert_eq!(errors.lines().filter(|line| is_told(line)).count(), 1, "{page}: {errors}");
+    }
+    let index = fs::read_to_string(pages.join("index.html")).expect("the index is written");
+    let other = fs::read_to_string(pages.join("_HYPERLINK_1_.html")).expect("so is the other");
+    assert!(index.ends_with("</html>") && other.ends_with("</html>"));
+    let amy = class.join("amy");
+    for full in ["--out", "--list"] {
+        run_line(&format!("check {{}} --quiet {full} /dev/full"), &[&amy]).code(2);
+    }
+    let source = amy.join("PointLight.cpp");
+    fails_last("check {} --quiet --out {}", &[&amy, &source], "found one that is read");
+    assert_eq!(fs::read_to_string(&source).expect("it is there"), "#error no solution\n");
+    let empty = folder.path().join("empty");
+    fs::create_dir(&empty).expect("can be made");
+    fails("check --class {}", &[&empty], &["empty", "found none"]);
+}
+
+/// As [`fails`], whatever notes come before.
+fn fails_last(line: &str, paths: &[&Path], expected: &str) {
+    let failed = run_line(line, paths).code(2);
+    let errors = String::from_utf8_lossy(&failed.get_output().stderr).into_owned();
+    assert!(errors.lines().last().is_some_and(|last| last.contains(expected)), "{errors}");
 }
 
 #[test]

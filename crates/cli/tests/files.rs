@@ -481,12 +481,56 @@ fn each_write_that_fails_leaves_whole_files() {
     }
 }
 
+/// A folder, or a file where a folder is needed: nobody can write there, not even root.
+#[test]
+fn what_cannot_be_written_is_told_before_any_work_where_that_is_known() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let list = few(folder.path());
+    write(at("grader/submission/photons.csv"), csv(1, 20_000));
+    write(at("grader/results"), "a file");
+    write(at("file"), "a file");
+    for (line, reason) in [
+        ("report --out file/report", "cannot be written"),
+        ("report --out report.html", "the name of a file"),
+        ("kit student --out starter.zip", "the name of a file"),
+        ("kit gradescope --out file", "found a file"),
+        ("explore --photons 99 --out file/out", "cannot be written"),
+        ("render --photons 99 --size 8x6 --out file/out", "cannot be written"),
+        ("merge few/photons.ply --out file/merged.ply", "cannot be written"),
+        ("grade few/photons.ply --out file/grade.txt", "cannot be written"),
+        ("grade few few --format html --out file/pages", "cannot be written"),
+        ("autograde grader", "cannot be written"),
+    ] {
+        let before = contents(folder.path());
+        let output = program(folder.path()).args(line.split(' ')).output().unwrap();
+        let error = stderr(&output);
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{line}: {error}");
+        assert!(error.contains(reason) && error.lines().count() == 1, "{line}: {error}");
+        assert!(contents(folder.path()) == before, "{line}");
+    }
+    // Each file of the report in turn, before it measures for minutes.
+    for name in report::FILES {
+        fs::create_dir_all(at("report").join(name)).unwrap();
+        fails("report --quiet --out {}", &[&at("report")], &[name, "is a directory"]);
+        assert!(contents(&at("report")).is_empty(), "{name}");
+        fs::remove_dir(at("report").join(name)).unwrap();
+    }
+    // A list of the pieces that are merged is no output either.
+    fails("merge {} --out {}", &[&list, &at("few")], &["few", "is a directory"]);
+}
+
 #[test]
 fn no_verb_takes_a_full_standard_output_for_a_success() {
     let folder = folder();
     let list = few(folder.path());
     let list = list.to_str().unwrap();
-    let runs: [&[&str]; 7] = [
+    let runs: [&[&str]; 12] = [
+        &["--help"],
+        &["--version"],
+        &["expect", "--quick", "--json"],
+        &["explore", "--photons", "99"],
+        &["kit", "student", "--out", "starter"],
         &["grade", list],
         &["compare", list, list],
         &["render", "--photons", "99", "--size", "8x6"],

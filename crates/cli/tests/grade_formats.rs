@@ -6,7 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
+use sha2::{Digest as _, Sha256};
 use support::{fails, folder, json, run_line, stdout};
 use variants::variation::{Hemisphere, Simulation, Storage, Variation};
 
@@ -183,6 +186,15 @@ fn nothing_of_a_submission_gets_into_the_page_as_it_is() {
     }
     let index = fs::read_to_string(out.join("index.html")).unwrap();
     assert!(index.contains("&lt;img src=x onerror=alert(1)&gt;"));
+    // No style and no script but the page's own, which its policy names by their hashes.
+    assert!(!index.contains("unsafe-inline"));
+    for tag in ["style", "script"] {
+        let (_, rest) = index.split_once(&format!("<{tag}>")).unwrap();
+        let (content, others) = rest.split_once(&format!("</{tag}>")).unwrap();
+        let hash = BASE64_STANDARD.encode(Sha256::digest(content));
+        assert!(index.contains(&format!("{tag}-src 'sha256-{hash}'")), "{tag}");
+        assert!(!others.contains(&format!("<{tag}")), "{tag}");
+    }
 }
 
 #[test]

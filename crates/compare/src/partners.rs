@@ -118,6 +118,8 @@ fn distance(a: Vec3, b: Vec3) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
 
     #[test]
@@ -141,6 +143,56 @@ mod tests {
         };
         let moved = row(0.8 * tolerance);
         assert!(are_all_paired(&row(0.0), &moved));
+    }
+
+    thread_local! {
+        /// How many positions were looked at.
+        static LOOKED: Cell<usize> = const { Cell::new(0) };
+    }
+
+    struct Counted(Vec3);
+
+    impl Located for Counted {
+        fn position(&self) -> Vec3 {
+            LOOKED.set(LOOKED.get() + 1);
+            self.0
+        }
+    }
+
+    /// So many within less than half a tolerance of 1e-3, no two alike, in the middle of a cell.
+    fn crowd(count: usize, shift: f32) -> Vec<Counted> {
+        let at = |k: usize| Vec3::new((k * 7919 % count) as f32 / count as f32, shift, 0.0);
+        (0..count).map(|k| Counted(2e-3 * Vec3::ONE + 4e-4 * at(k))).collect()
+    }
+
+    /// The partners of two lists, and how many positions were looked at for each record.
+    fn partners_and_work(reference: &[Counted], submission: &[Counted]) -> (Vec<u32>, usize) {
+        let index = PositionIndex::new(reference, 1e-3);
+        LOOKED.set(0);
+        let partners = partners(&index, submission);
+        (partners, LOOKED.get() / submission.len())
+    }
+
+    #[test]
+    fn crowds_take_no_quadratic_time() {
+        let (partners, work) = partners_and_work(&crowd(20_000, 0.0), &crowd(20_000, 0.5));
+        assert!(!partners.contains(&ALONE) && work < 2 * MOST_FREE, "{work}");
+        // Most find no place, and nobody can make room.
+        let (partners, work) = partners_and_work(&crowd(1000, 0.0), &crowd(50_000, 0.5));
+        assert!(!partners.contains(&ALONE) && work < 200, "{work}");
+    }
+
+    #[test]
+    fn a_crowd_in_which_there_is_no_room_leaves_others_theirs() {
+        let row = |start: f32| {
+            (0..100).map(move |k| Counted(Vec3::new(1.0 + start + 1.5e-3 * k as f32, 0.0, 0.0)))
+        };
+        let mut reference = crowd(10_000, 0.0);
+        let mut submission = crowd(10_100, 0.5);
+        reference.extend(row(0.0));
+        submission.extend(row(8e-4));
+        let (partners, _) = partners_and_work(&reference, &submission);
+        assert!(!partners.contains(&ALONE));
     }
 
     #[test]

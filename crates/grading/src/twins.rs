@@ -6,18 +6,23 @@ use glam::Vec3;
 use photon_mapping::photon_list::PhotonRecord;
 
 /// Of the cells that a list's photons lie in, so many with the smallest hashes stand for all.
-const KEPT: usize = 128;
-/// Fewer different cells say nothing.
+const KEPT: usize = 1024;
+/// Fewer different cells say nothing, nor do fewer that two lists share.
 const FEWEST: usize = 20;
-/// Of this part of their cells, two lists have in common what no two runs have: 0.13 is what those
-/// of 1,000,000 photons emitted share in large cells.
-const SAME: f64 = 0.4;
+const FEWEST_SHARED: usize = 10;
 /// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
 /// long lists are all alike.
 const LARGE_CELL: f32 = 1e-2;
 const SMALL_CELL: f32 = 1e-3;
-/// Longer lists are compared in small cells.
-const MOST_IN_LARGE_CELLS: usize = 100_000;
+/// Longer lists are compared in small cells alone.
+const MOST_IN_LARGE_CELLS: usize = 60_000;
+/// Of all cells that one of two lists has, this part is in both only if they have the same photons.
+/// Two runs of MOST_IN_LARGE_CELLS records share 0.32 of the large cells.
+const SAME: f64 = 0.45;
+/// Of the small cells of the shorter list, the other has this part only if it has part of its
+/// photons. Two runs of MOST_FOR_PART records share 0.03.
+const PART: f64 = 0.2;
+const MOST_FOR_PART: usize = 300_000;
 
 /// What tells the photons of a list from others'.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,10 +42,11 @@ impl Fingerprint {
 
     /// Whether the two have more in common than two runs.
     pub fn is_like(&self, other: &Self) -> bool {
-        match self.records.max(other.records) > MOST_IN_LARGE_CELLS {
-            true => shared(&self.small, &other.small) >= SAME,
-            false => shared(&self.large, &other.large) >= SAME,
-        }
+        let longer = self.records.max(other.records);
+        let small = shared(&self.small, &other.small);
+        small.of_all >= SAME
+            || longer <= MOST_FOR_PART && small.of_fewer >= PART
+            || longer <= MOST_IN_LARGE_CELLS && shared(&self.large, &other.large).of_all >= SAME
     }
 }
 
@@ -71,18 +77,25 @@ fn hash(position: Vec3, size: f32) -> u64 {
     })
 }
 
-/// Which part of the cells of both is in both, estimated from the smallest hashes.
-fn shared(a: &[u64], b: &[u64]) -> f64 {
-    let (mut i, mut j) = (0, 0);
-    let (mut all, mut both) = (0, 0);
-    while all < KEPT && (i < a.len() || j < b.len()) {
-        let [of_a, of_b] = [a.get(i), b.get(j)].map(|hash| hash.copied().unwrap_or(u64::MAX));
-        all += 1;
-        both += usize::from(of_a == of_b);
-        i += usize::from(of_a <= of_b);
-        j += usize::from(of_b <= of_a);
-    }
-    both as f64 / all.max(1) as f64
+/// Which part of the cells of both lists is in both.
+struct Shared {
+    /// Of those that one of them has.
+    of_all: f64,
+    /// Of those that the list with fewer has.
+    of_fewer: f64,
+}
+
+/// Estimates it from the smallest hashes: those up to where the first of the two ends.
+fn shared(a: &[u64], b: &[u64]) -> Shared {
+    // A list with fewer cells than are kept has all of its hashes.
+    let end =
+        [a, b].into_iter().filter(|hashes| hashes.len() >= KEPT).filter_map(|hashes| hashes.last());
+    let end = end.min().copied().unwrap_or(u64::MAX);
+    let [a, b] = [a, b].map(|hashes| &hashes[..hashes.partition_point(|hash| *hash <= end)]);
+    let both = a.iter().filter(|hash| b.binary_search(hash).is_ok()).count();
+    let fewer = a.len().min(b.len());
+    let part = |of: usize| if both < FEWEST_SHARED { 0.0 } else { both as f64 / of as f64 };
+    Shared { of_all: part(a.len() + b.len() - both), of_fewer: part(fewer) }
 }
 
 /// For each of `all`, which others have the same photons.
@@ -132,6 +145,49 @@ mod tests {
             }
             assert!(!are_like(&all, &list(2, photons)), "{photons}");
         }
+    }
+
+    #[test]
+    fn parts_of_others_photons_are_twins() {
+        for photons in [20_000, 1_000_000, 4_000_000] {
+            let (one, two) = (list(1, photons), list(2, photons));
+            let tenth: Vec<_> = one.iter().copied().step_by(10).collect();
+            let first = one[..one.len() / 10].to_vec();
+            let half = |all: &[PhotonRecord], from: usize| -> Vec<PhotonRecord> {
+                all.iter().copied().skip(from).step_by(2).collect()
+            };
+            let mixed = [half(&one, 0), half(&two, 1)].concat();
+            for (part, name) in [(&tenth, "tenth"), (&first, "first"), (&mixed, "mixed")] {
+                assert!(are_like(&one, part) && are_like(part, &one), "{name} of {photons}");
+            }
+            assert!(are_like(&two, &mixed), "{photons}");
+            assert!(!are_like(&two, &tenth) && !are_like(&two, &first), "{photons}");
+        }
+    }
+
+    #[test]
+    fn independent_lists_are_no_twins() {
+        let in_large = |list: &Fingerprint| list.records <= MOST_IN_LARGE_CELLS;
+        for (photons, runs) in [(5_000, 40), (100_000, 20), (1_190_000, 8), (5_900_000, 2)] {
+            let all: Vec<_> =
+                (0..runs).map(|seed| Fingerprint::of(&list(seed, photons)).unwrap()).collect();
+            for (at, one) in all.iter().enumerate() {
+                for other in &all[..at] {
+                    assert!(!one.is_like(other), "{photons}");
+                    // Nor are those of a large class, of which some pairs share more.
+                    let small = shared(&one.small, &other.small);
+                    assert!(small.of_all.max(small.of_fewer) < PART / 4.0, "{photons}");
+                    let large = shared(&one.large, &other.large).of_all;
+                    assert!(!in_large(one) || large < 0.8 * SAME, "{photons}: {large}");
+                }
+            }
+            // A short list among the photons of a long one.
+            let short = Fingerprint::of(&list(runs, 20_000)).unwrap();
+            assert!(all.iter().all(|long| !short.is_like(long)), "{photons}");
+        }
+        // In large cells these would be alike.
+        let [one, other] = [0, 1].map(|seed| Fingerprint::of(&list(seed, 1_900_000)).unwrap());
+        assert!(!one.is_like(&other));
     }
 
     #[test]

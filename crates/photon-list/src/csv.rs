@@ -94,8 +94,10 @@ pub(super) fn read(
     rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
 ) -> Result<Naming, ListError> {
     let path = lines.path;
-    let TextStart { dialect, first, mut count } = start;
+    let TextStart { mut dialect, first, mut count } = start;
     let mut records = 0;
+    let mut number_of_row: Option<Option<u64>> = None;
+    let mut empty = None;
     let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
         let line = line.trim();
         if line.is_empty() || commented(line).is_some() {
@@ -105,7 +107,22 @@ pub(super) fn read(
             count = Some((rows, number));
             return Ok(true);
         }
-        let Some(record) = record(path, line, number, &dialect, rows)? else { return Ok(true) };
+        let next = number_of_row.get_or_insert_with(|| {
+            dialect.has_number(line).then(|| u64::from(line.trim_matches('"').starts_with('1')))
+        });
+        let Some(record) = record(path, line, (number, *next), &dialect, rows)? else {
+            empty = empty.or(Some(number));
+            return Ok(true);
+        };
+        // pandas writes nothing for NaN; spreadsheets write empty rows, but at the end.
+        if let Some(line) = empty {
+            return Err(ListError::in_line(
+                path,
+                line,
+                "expected a photon, found only empty values",
+            ));
+        }
+        *next = next.map(|next| next + 1);
         records += 1;
         (rows.on_record)(record)
     };
@@ -117,6 +134,11 @@ pub(super) fn read(
         let Some((number, line)) = lines.next()? else { break };
         wants_more = row(number, &line)?;
     }
+    if let Some(Some(_)) = number_of_row {
+        let note = "the first value of each row is taken for its number".to_owned();
+        let notes = dialect.naming.note.into_iter().chain([note]);
+        dialect.naming.note = Some(notes.collect::<Vec<_>>().join("; "));
+    }
     match count {
         Some((expected, line)) if wants_more && expected != records => {
             let message = format!("expected {expected} photons, found {records}");
@@ -126,16 +148,23 @@ pub(super) fn read(
     }
 }
 
-/// The record in `row`; none where all values are empty.
+/// The record in `row`, which is line `number` and starts with its own `number_of_row` if there is
+/// one; none where all values are empty.
 fn record(
     path: &Path,
     row: &str,
-    number: u64,
+    (number, number_of_row): (u64, Option<u64>),
     dialect: &Dialect,
     rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
 ) -> Result<Option<PhotonRecord>, ListError> {
     let mut record = ABSENT;
     let mut cells = dialect.cells(row);
+    if let Some(expected) = number_of_row
+        && cells.next().and_then(|cell| cell.parse().ok()) != Some(expected)
+    {
+        let message = format!("expected {expected}, the number of the row, as its first value");
+        return Err(ListError::in_line(path, number, message));
+    }
     let places = &dialect.naming.places;
     let other_number = |found: usize| {
         let message = format!("expected {} values, found {found}", places.len());

@@ -139,7 +139,15 @@ fn of_a_vector(name: &str) -> Option<usize> {
 
 /// `line` without what starts a comment, if it is one.
 pub(super) fn commented(line: &str) -> Option<&str> {
-    COMMENTS.iter().find_map(|mark| line.strip_prefix(mark))
+    COMMENTS.iter().find_map(|mark| line.strip_prefix(mark)).filter(|_| !is_of_spreadsheet(line))
+}
+
+/// Whether `line` starts with what spreadsheets write for a number that is none: `#NUM!`, `#NAME?`,
+/// `#N/A`.
+fn is_of_spreadsheet(line: &str) -> bool {
+    let first = line.split([',', ';', '\t', ' ']).next().unwrap_or_default();
+    let is_called_so = first.ends_with(['!', '?']) || first == "#N/A";
+    is_called_so && first.starts_with('#') && !first.contains(char::is_lowercase)
 }
 
 impl Dialect {
@@ -187,6 +195,17 @@ impl Dialect {
             between.map(str::to_owned).into_iter().chain(naming.note.take()).collect();
         naming.note = (!notes.is_empty()).then(|| notes.join("; "));
         Ok(Self { separator, naming, has_header })
+    }
+
+    /// Whether `row` has one value more than the header names, as R writes tables: its number.
+    pub fn has_number(&self, row: &str) -> bool {
+        let is_white = self.separator.is_none_or(char::is_whitespace);
+        let values: Vec<&str> = self.cells(row).take(self.naming.places.len() + 2).collect();
+        self.has_header
+            && is_white
+            && values.len() == self.naming.places.len() + 1
+            && values.last().is_some_and(|last| !last.is_empty())
+            && matches!(values[0], "0" | "1")
     }
 
     /// The values of `row`.

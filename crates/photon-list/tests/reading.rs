@@ -83,6 +83,11 @@ fn dialects_of_text() {
         let quoted = |number: f32| format!("\"{}\"", number.to_string().replace('.', comma));
         lines(|Vec3 { x, y, z }| [x, y, z].map(quoted).join(","))
     };
+    let numbered = |first: usize, quote: &str, separator: &str| -> String {
+        let rows = rows(separator);
+        let number = |at: usize| format!("{quote}{}{quote}{separator}", first + at);
+        rows.lines().enumerate().map(|(at, row)| number(at) + row + "\n").collect()
+    };
     for (what, text) in [
         ("as it should be", csv()),
         (
@@ -100,6 +105,9 @@ fn dialects_of_text() {
         ("CloudCompare", format!("//X Y Z\n{}", rows(" "))),
         ("CloudCompare, counted", format!("//X Y Z\n{ROWS}\n{}", rows(" "))),
         ("points of Leica", format!("{ROWS}\n{}", rows(" "))),
+        ("R", format!("\"x\" \"y\" \"z\"\n{}", numbered(1, "\"", " "))),
+        ("R, tabs", format!("x\ty\tz\n{}", numbered(1, "", "\t"))),
+        ("pandas, printed", format!("   x   y  z\n{}", numbered(0, "", "  "))),
         ("NumPy", format!("# x y z\n{}", rows(" "))),
         ("MATLAB", format!("% x y z\n{}", rows("\t"))),
         ("comments of two kinds", format!("# x y z\n# of a run\n{}", rows(" "))),
@@ -257,6 +265,13 @@ fn what_is_no_list_is_refused_with_the_line() {
     for (text, expected) in [
         ("x,y,z\n1,2,3\n1,2\n", ["line 3", "expected 3 values, found 2"]),
         ("x,y,z\n1,2,3,4\n", ["line 2", "expected 3 values, found 4"]),
+        ("x y z\n1 1 2 3\n3 1 2 3\n", ["line 3", "expected 2, the number of the row"]),
+        ("x y z\n5 1 2 3\n", ["line 2", "expected 3 values, found 4"]),
+        ("x y z\n1 1 2 3 4\n", ["line 2", "expected 3 values, found 5"]),
+        ("x,y,z\n1,2,3\n#NUM!,#NUM!,#NUM!\n", ["line 3", "found '#NUM!'"]),
+        ("x;y;z\n1;2;3\n#ZAHL!;2;3\n", ["line 3", "found '#ZAHL!'"]),
+        ("x,y,z\n1,2,3\n#N/A,2,3\n", ["line 3", "found '#N/A'"]),
+        ("x,y,z\n1,2,3\n,,\n,,\n1,2,3\n", ["line 3", "only empty values"]),
         ("x,y,z\n1,2,3,,5\n", ["line 2", "expected 3 values, found 5"]),
         ("x,y,z\n1,2,3 # last\n", ["line 2", "found '3 # last'"]),
         ("x,y,z\r1,2,3\r1,b,3\r", ["line 3", "found 'b'"]),
@@ -395,6 +410,10 @@ fn work_is_bounded_by_bytes() {
         format!("x,y,z\n{}", (",".repeat(60_000) + "\n").repeat(100)),
         format!("x,y,z\n{}", ("1,2,3".to_owned() + &",".repeat(60_000) + "\n").repeat(100)),
         format!("x,y,z\n{}", "# x y z\n".repeat(700_000)),
+        format!(
+            "ply\nformat ascii 1.0\n{}",
+            (0..80_000).map(|at| format!("element {at:064} 0\n")).collect::<String>()
+        ),
     ] {
         let text = text.repeat(4);
         let start = Instant::now();

@@ -2,18 +2,47 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::CliError;
+use crate::output;
 
 /// The page that leads to the others.
 pub const INDEX: &str = "index.html";
 /// The longest name of a file without number and extension, in bytes, of which systems take 255.
 const LONGEST_NAME: usize = 100;
 
+/// The folder `out` where `count` submissions get a file each, with the `extension` of a format
+/// that has such, and the names of these files. None where there is one submission and `out` is its
+/// file.
+///
+/// # Errors
+/// When `out` can be no such folder, or has files of another run.
+pub fn places_of_each<'a>(
+    extension: Option<&str>,
+    out: Option<&Path>,
+    names: impl Iterator<Item = &'a str>,
+    count: usize,
+) -> Result<(Option<PathBuf>, Vec<String>), CliError> {
+    let files = file_names(names, extension.unwrap_or_default());
+    let is_folder =
+        |out: &Path| out.is_dir() || out.to_string_lossy().ends_with(std::path::is_separator);
+    let folder = match (extension, out) {
+        (Some(_), Some(out)) if count > 1 || is_folder(out) => output::folder(out)?,
+        (Some(_), None) if count > 1 => {
+            return Err(CliError::Argument(format!(
+                "--out: expected a folder, for each of {count} submissions has a file of its own"
+            )));
+        }
+        _ => return Ok((None, files)),
+    };
+    refuse_others(folder, &files, extension.unwrap_or_default())?;
+    Ok((Some(folder.to_owned()), files))
+}
+
 /// For each submission of `names` the name of its file: its own, without what systems do not take
 /// or what leads elsewhere, and with `extension`.
-pub fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<String> {
+fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<String> {
     // Also for systems that do not tell capitals apart.
     let mut seen = HashSet::from(["index".to_owned()]);
     let mut unique = |name: &str| {
@@ -30,7 +59,7 @@ pub fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> 
 ///
 /// # Errors
 /// When there is such a file.
-pub fn refuse_others(folder: &Path, files: &[String], extension: &str) -> Result<(), CliError> {
+fn refuse_others(folder: &Path, files: &[String], extension: &str) -> Result<(), CliError> {
     let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
     let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
     let is_other = |name: &String| {

@@ -13,15 +13,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::error::{CliError, escaped};
 use super::gradebook::GradebookArgs;
-use super::output::{self, protect};
+use super::output::protect;
 use super::values;
 use class::Class;
 // What `check` has in common with `grade`, where there is `check`.
 #[cfg(unix)]
 pub use class::json;
+pub use files::places_of_each;
 #[cfg(unix)]
 pub use files::{INDEX, made_by};
-pub use files::{file_names, refuse_others};
 use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
 use grading::page::Pages;
@@ -152,14 +152,10 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
         return Err(CliError::Argument(not_graded.join("; ")));
     }
     let students = arguments.gradebook.class(&there, &mut handed_in)?;
-    let folder = folder(arguments, handed_in.len() + missing.len())?;
-    let files = file_names(
-        handed_in.iter().map(|one| one.submission.name.as_str()),
-        arguments.format.of_each().unwrap_or_default(),
-    );
-    if let (Some(folder), Some(extension)) = (&folder, arguments.format.of_each()) {
-        refuse_others(folder, &files, extension)?;
-    }
+    let count = handed_in.len() + missing.len();
+    let names = handed_in.iter().map(|one| one.submission.name.as_str());
+    let (folder, files) =
+        places_of_each(arguments.format.of_each(), arguments.out.as_deref(), names, count)?;
     let expectations = expectations(arguments.max_bounces);
     let class = Class {
         format: arguments.format,
@@ -187,26 +183,6 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
 fn is_missing(path: &Path) -> bool {
     path != Path::new(STANDARD_INPUT)
         && path.symlink_metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
-}
-
-/// The folder for a file of each of `count` submissions, if there are to be such.
-fn folder(arguments: &GradeArgs, count: usize) -> Result<Option<PathBuf>, CliError> {
-    if arguments.format.of_each().is_none() {
-        return Ok(None);
-    }
-    let Some(out) = &arguments.out else {
-        return match count {
-            1 => Ok(None),
-            _ => Err(CliError::Argument(format!(
-                "--out: expected a folder, for each of {count} submissions has a file of its own"
-            ))),
-        };
-    };
-    let is_folder = out.is_dir() || out.to_string_lossy().ends_with(std::path::is_separator);
-    match count > 1 || is_folder {
-        true => Ok(Some(output::folder(out)?.to_owned())),
-        false => Ok(None),
-    }
 }
 
 /// A bar on a terminal, when there is something to wait for.

@@ -76,7 +76,7 @@ fn write(out: &Path, files: &[KitFile]) -> Result<(), CliError> {
         let path = path.to_owned();
         move |source| CliError::Unwritable { path, source }
     };
-    fs::create_dir_all(out).map_err(unwritable(out))?;
+    fs::create_dir_all(output::folder(out)?).map_err(unwritable(out))?;
     if fs::read_dir(out).map_err(unwritable(out))?.next().is_some() {
         let message = format!("--out {}: expected a new or empty folder", out.display());
         return Err(CliError::Argument(format!("{message}, found files in it")));

@@ -24,7 +24,8 @@ type Identity = (u64, u64);
 type Identity = PathBuf;
 
 /// What the names of files end in that a folder is hardly called like.
-const FILE_EXTENSIONS: [&str; 9] = ["csv", "htm", "html", "json", "md", "obj", "ply", "png", "txt"];
+const FILE_EXTENSIONS: [&str; 10] =
+    ["csv", "htm", "html", "json", "md", "obj", "ply", "png", "txt", "zip"];
 
 /// From now on no output may replace a file of `paths`.
 pub fn protect<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {

@@ -146,13 +146,16 @@ pub fn students(folder: &Path) -> (Vec<PathBuf>, Vec<String>) {
     let mut students =
         [children.folders, children.others, children.lists, children.pictures].concat();
     students.sort();
-    let note = |paths: &[PathBuf], why: &str| {
-        let names: Vec<String> = paths.iter().take(5).map(|path| within(path, folder)).collect();
-        let more = if paths.len() > 5 { " and more" } else { "" };
-        (!paths.is_empty())
-            .then(|| format!("{}: left out: {}{more}: {why}", folder.display(), names.join(", ")))
-    };
-    let hidden = note(&children.hidden, "names with a dot are no submissions");
-    let rest = note(&children.rest, "no list, picture or folder");
+    let hidden = left_out(folder, &children.hidden, "names with a dot are no submissions");
+    let rest = left_out(folder, &children.rest, "no list, picture or folder");
     (students, hidden.into_iter().chain(rest).collect())
+}
+
+/// That of the class `folder` these `paths` are no submissions, and why; none if there are none.
+pub fn left_out(folder: &Path, paths: &[PathBuf], why: &str) -> Option<String> {
+    const MOST_NAMED: usize = 5;
+    let names = paths.iter().take(MOST_NAMED).map(|path| within(path, folder));
+    let names = names.collect::<Vec<_>>().join(", ");
+    let more = if paths.len() > MOST_NAMED { " and more" } else { "" };
+    (!paths.is_empty()).then(|| format!("{}: left out: {names}{more}: {why}", folder.display()))
 }

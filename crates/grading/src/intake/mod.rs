@@ -1,6 +1,6 @@
 //! From the files and folders that a grader names to one submission a student.
 
-mod class;
+pub mod class;
 pub mod contents;
 mod folder;
 pub mod kinds;

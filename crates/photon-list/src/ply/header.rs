@@ -1,5 +1,6 @@
 //! The header of a PLY file.
 
+use std::collections::HashSet;
 use std::io::BufRead;
 
 use super::scalar::Scalar;
@@ -52,6 +53,7 @@ impl Header {
         let path = lines.path;
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        let mut names = HashSet::new();
         let mut comments = Vec::new();
         let mut last = 1;
         while let Some((number, line)) = lines.next()? {
@@ -81,7 +83,7 @@ impl Header {
                 }
                 ("element", [name, count]) => {
                     let name = name.to_ascii_lowercase();
-                    if elements.iter().any(|element| element.name == name) {
+                    if !names.insert(name.clone()) {
                         let message = "expected each element once".to_owned();
                         return Err(error(Reason { message, found: Some(start(&name)) }));
                     }
