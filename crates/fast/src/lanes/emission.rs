@@ -5,8 +5,7 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::chacha;
-use super::first_hit::Aimed;
-use super::outlook::{UNKNOWN, aim, rough_cell};
+use super::outlook::{UNKNOWN, rough_cell};
 
 /// How many photons a kernel call emits. Their blocks fill half of a small first-level cache.
 pub const GROUP: usize = 128;
@@ -16,13 +15,13 @@ pub const DRAWN_IN_VAIN: u32 = 15;
 /// The points in the sphere that [`GROUP`] photons drew.
 #[derive(Clone, Debug)]
 pub struct LaneEmission {
-    /// The accepted point in the unit sphere, by coordinate.
+    /// The accepted point in the sphere, by [`coordinate`].
     pub point: [[f32; GROUP]; 3],
     /// How many numbers were drawn; 0 when the block held no point in the sphere.
     pub drawn: [u32; GROUP],
     /// The three words after them, if the block has them all, else zeros.
     pub next: [[u32; GROUP]; 3],
-    /// The [`rough_cell`] of the point, or [`UNKNOWN`].
+    /// The [`rough_cell`] of the point, or [`UNKNOWN`] where point or words are missing.
     pub cell: [u32; GROUP],
 }
 
@@ -81,61 +80,21 @@ impl NullaryFnOnce for Emit<'_> {
             drawn[lane] = count;
             (next_0[lane], next_1[lane], next_2[lane]) = (n0, n1, n2);
             let rough_cell = rough_cell(Vec3::new(x, y, z));
-            cell[lane] = if count == 0 { UNKNOWN } else { rough_cell };
+            let is_known = (count != 0) & (count != DRAWN_IN_VAIN);
+            cell[lane] = if is_known { rough_cell } else { UNKNOWN };
         }
     }
 }
 
-/// 2 r - 1 for the number r of `word`. Twice a multiple of 2^-24 is exact, so it may be taken at
-/// once.
+/// The radius of the sphere in which points are drawn, 2^31. With such coordinates a word becomes
+/// one in two operations. What is rounded is the same as in the unit sphere, since a power of two
+/// changes no digit, and normalising takes it away.
+pub const RADIUS: f32 = 2_147_483_648.0;
+
+/// 2 r - 1 for the number r of `word`, times [`RADIUS`]: exact, with 24 digits.
 #[inline(always)]
 pub fn coordinate(word: u32) -> f32 {
-    (word >> 8) as i32 as f32 * (1.0 / 8_388_608.0) - 1.0
-}
-
-/// Directions of [`GROUP`] photons, and what [`aim`] makes of them.
-#[derive(Clone, Debug)]
-pub struct Aims {
-    /// The unit vectors, by coordinate.
-    pub direction: [[f32; GROUP]; 3],
-    /// The cells.
-    pub cell: [u32; GROUP],
-    /// The shears, and which photon it is.
-    pub aimed: [Aimed; GROUP],
-}
-
-impl Default for Aims {
-    fn default() -> Self {
-        Self { direction: [[0.0; GROUP]; 3], cell: [0; GROUP], aimed: [[0.0; 4]; GROUP] }
-    }
-}
-
-/// Normalises points in the sphere.
-pub struct Aim<'a> {
-    /// The points.
-    pub point: &'a [[f32; GROUP]; 3],
-    /// The place of the first photon.
-    pub first: u32,
-    /// Where the directions go.
-    pub aims: &'a mut Aims,
-}
-
-impl NullaryFnOnce for Aim<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let [x, y, z] = self.point;
-        let Aims { direction: [dx, dy, dz], cell, aimed } = self.aims;
-        for lane in 0..GROUP {
-            let direction = Vec3::new(x[lane], y[lane], z[lane]).normalize();
-            let (cell_of_lane, shear) = aim(direction);
-            (dx[lane], dy[lane], dz[lane]) = (direction.x, direction.y, direction.z);
-            cell[lane] = cell_of_lane;
-            let place = f32::from_bits(self.first + lane as u32);
-            aimed[lane] = [shear.x, shear.y, shear.z, place];
-        }
-    }
+    ((word & !0xff) ^ (1 << 31)) as i32 as f32
 }
 
 /// Whether the rejection loop takes `point`.
@@ -143,5 +102,5 @@ impl NullaryFnOnce for Aim<'_> {
 pub fn is_in_sphere(point: Vec3) -> bool {
     let length_squared = point.length_squared();
     // Both comparisons always, where `&&` would branch.
-    (length_squared <= 1.0) & (length_squared > 0.0)
+    (length_squared <= RADIUS * RADIUS) & (length_squared > 0.0)
 }

@@ -1,146 +1,98 @@
 //! What photons straight from a light meet: the test of [`photon_mapping::scene::triangle`] with
-//! photons in the lanes that all may meet the same triangle.
+//! photons in the lanes that all may meet the same triangles.
 //!
-//! Photons wait in a queue of the triangle until the lanes are full. So a triangle's corners are
-//! loaded once for many photons, and nothing depends on which of two triangles a photon meets,
-//! which no processor could predict.
+//! Photons wait in a queue of their [`Outlook`]'s list of triangles until the lanes are full. So
+//! nothing depends on which list it is, which no processor could predict.
 
 use glam::Vec3;
 use pulp::NullaryFnOnce;
 
+use super::LaneSurface;
 use super::closest_hit::{NONE, greatest, least, mask};
+use super::draws::Draws;
 use super::outlook::Outlook;
-use super::width::Width;
 use photon_mapping::scene::Scene;
-use photon_mapping::scene::ray::IntersectionState;
-use photon_mapping::scene::ray::Ray;
-use photon_mapping::scene::triangle::meet;
+use photon_mapping::scene::ray::{IntersectionState, Ray};
 
 /// How many photons wait before they are tested.
-const LANES: usize = 16;
+pub const LANES: usize = 16;
 
-/// The shears of a photon's direction, and the bits of its place among the photons of the search:
-/// all that waits of it, in one line of the cache.
-pub type Aimed = [f32; 4];
-
-/// A photon's closest hit so far.
-#[derive(Clone, Copy, Debug)]
-pub struct FirstHit {
-    /// The distance.
-    pub t: f32,
-    /// The triangle, or [`NONE`].
-    pub triangle: u32,
+/// A photon on its way from the light: all that waits of it, in one line of the cache.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(32))]
+pub struct EmittedPhoton {
+    /// The point in the sphere that it drew.
+    pub point: [f32; 3],
+    /// The numbers with which it goes on.
+    pub draws: Draws,
 }
 
-/// Photons that wait to be tested with the same triangle.
+/// Photons of the same list.
+pub type Queue = [EmittedPhoton; LANES];
+
+/// What the photons of a queue meet.
 #[derive(Clone, Debug)]
-struct Queue {
-    photons: [Aimed; LANES],
-    waiting: usize,
+pub struct FirstHits {
+    /// Along which unit vectors they fly, by coordinate.
+    pub direction: [[f32; LANES]; 3],
+    /// How far.
+    pub t: [f32; LANES],
+    /// The triangles, or [`NONE`].
+    pub triangle: [u32; LANES],
+    /// The probabilities of reflection there; 0 where nothing is met.
+    pub reflection: [f32; LANES],
+    /// Not 0 where an edge function that decides was rounded to zero, or where a photon came from
+    /// behind: see [`Self::settle`].
+    is_doubtful: [u32; LANES],
 }
 
-/// The search for what photons of one light meet.
-#[derive(Clone, Debug)]
-pub struct FirstHits<'a> {
-    outlook: &'a Outlook,
-    width: Width,
-    /// By axis, then triangle.
-    queues: Vec<Queue>,
-    triangles: usize,
-    /// What each photon met, were there no edges where a back seems closer than a front.
-    hits: Vec<FirstHit>,
-}
-
-impl<'a> FirstHits<'a> {
-    /// A search for `photons` photons that see `outlook`, in a scene of `triangles` triangles.
-    pub fn new(outlook: &'a Outlook, width: Width, triangles: usize, photons: usize) -> Self {
-        let empty = Queue { photons: [[1.0; 4]; LANES], waiting: 0 };
+impl Default for FirstHits {
+    fn default() -> Self {
         Self {
-            outlook,
-            width,
-            queues: vec![empty; 3 * triangles],
-            triangles,
-            hits: vec![FirstHit { t: f32::INFINITY, triangle: NONE }; photons],
+            direction: [[0.0; LANES]; 3],
+            t: [0.0; LANES],
+            triangle: [NONE; LANES],
+            reflection: [0.0; LANES],
+            is_doubtful: [0; LANES],
         }
-    }
-
-    /// Looks for what `photon` meets, whose direction is in `cell`.
-    #[inline(always)]
-    pub fn add(&mut self, cell: u32, photon: Aimed) {
-        let axis = Outlook::axis(cell);
-        for &triangle in self.outlook.candidates(cell) {
-            let queue = &mut self.queues[axis * self.triangles + triangle as usize];
-            let lane = queue.waiting % LANES;
-            queue.photons[lane] = photon;
-            queue.waiting = lane + 1;
-            if queue.waiting == LANES {
-                self.test(axis, triangle);
-            }
-        }
-    }
-
-    /// Tests those that still wait.
-    pub fn finish(&mut self) {
-        for axis in 0..3 {
-            for triangle in 0..self.triangles {
-                self.test(axis, triangle as u32);
-            }
-        }
-    }
-
-    /// What the photon at `place` met, whose ray is `ray`.
-    #[inline(always)]
-    pub fn hit(&self, place: usize, scene: &Scene, ray: &Ray) -> Option<FirstHit> {
-        let hit = self.hits[place];
-        let triangle = scene.triangles().get(hit.triangle as usize)?;
-        if triangle.faces(ray.ray_direction()) {
-            return Some(hit);
-        }
-        let mut state = IntersectionState::new();
-        scene.trace(ray, Some(&mut state)).then_some(FirstHit {
-            t: state.intersection_t,
-            triangle: state.intersected_primitive as u32,
-        })
-    }
-
-    fn test(&mut self, axis: usize, triangle: u32) {
-        let queue = &mut self.queues[axis * self.triangles + triangle as usize];
-        if queue.waiting == 0 {
-            return;
-        }
-        let corners = self.outlook.seen(axis, triangle);
-        let (mut t, mut is_doubtful) = ([0.0; LANES], [0; LANES]);
-        self.width.run(Meet {
-            corners,
-            photons: &queue.photons,
-            t: &mut t,
-            is_doubtful: &mut is_doubtful,
-        });
-        for lane in 0..queue.waiting {
-            if is_doubtful[lane] != 0 {
-                let shear = Vec3::from_slice(&queue.photons[lane]);
-                let sheared =
-                    |c: Vec3| Vec3::new(c.x - shear.x * c.z, c.y - shear.y * c.z, shear.z * c.z);
-                t[lane] = meet(corners.map(sheared)).filter(|t| *t > 0.0).unwrap_or(f32::INFINITY);
-            }
-            let hit = &mut self.hits[queue.photons[lane][3].to_bits() as usize];
-            let is_tie = (t[lane] == hit.t) & (triangle < hit.triangle);
-            let is_closer = mask((t[lane] < hit.t) | (is_tie & (hit.triangle != NONE)));
-            let kept = hit.t.to_bits() & !is_closer;
-            hit.t = f32::from_bits((t[lane].to_bits() & is_closer) | kept);
-            hit.triangle = (triangle & is_closer) | (hit.triangle & !is_closer);
-        }
-        queue.waiting = 0;
     }
 }
 
-struct Meet<'a> {
-    corners: &'a [Vec3; 3],
-    photons: &'a [Aimed; LANES],
-    /// Where the distances go; infinite where the triangle is not met.
-    t: &'a mut [f32; LANES],
-    /// Not 0 where an edge function that decides was rounded to zero: there `meet` looks again.
-    is_doubtful: &'a mut [u32; LANES],
+impl FirstHits {
+    /// Asks [`Scene::trace`] for those of the first `count` photons that are in doubt.
+    pub fn settle(&mut self, scene: &Scene, surfaces: &[LaneSurface], light: Vec3, count: usize) {
+        for lane in 0..count {
+            if self.is_doubtful[lane] != 0 {
+                let mut state = IntersectionState::new();
+                let is_met = scene.trace(&Ray::new(light, self.direction(lane)), Some(&mut state));
+                let met = state.intersected_primitive;
+                self.t[lane] = state.intersection_t;
+                self.triangle[lane] = if is_met { met as u32 } else { NONE };
+                self.reflection[lane] =
+                    if is_met { surfaces[met].probability_of_reflection } else { 0.0 };
+            }
+        }
+    }
+
+    /// The unit vector in `lane`.
+    #[inline(always)]
+    pub fn direction(&self, lane: usize) -> Vec3 {
+        Vec3::from_array([0, 1, 2].map(|c| self.direction[c][lane]))
+    }
+}
+
+/// Finds what the photons of a queue meet.
+pub struct Meet<'a> {
+    /// What their light sees.
+    pub outlook: &'a Outlook,
+    /// Their list.
+    pub list: usize,
+    /// The triangles of the scene.
+    pub surfaces: &'a [LaneSurface],
+    /// The photons.
+    pub queue: &'a Queue,
+    /// Where the answers go.
+    pub hits: &'a mut FirstHits,
 }
 
 impl NullaryFnOnce for Meet<'_> {
@@ -148,29 +100,69 @@ impl NullaryFnOnce for Meet<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { corners: [a, b, c], photons, t, is_doubtful } = self;
+        let Self { outlook, list, surfaces, queue, hits } = self;
+        let (axis, candidates) = outlook.candidates(list);
+        let [dx, dy, dz] = &mut hits.direction;
         for lane in 0..LANES {
-            let [sx, sy, sz, _] = photons[lane];
-            let (ax, ay, az) = (a.x - sx * a.z, a.y - sy * a.z, sz * a.z);
-            let (bx, by, bz) = (b.x - sx * b.z, b.y - sy * b.z, sz * b.z);
-            let (cx, cy, cz) = (c.x - sx * c.z, c.y - sy * c.z, sz * c.z);
-            let u = cx * by - cy * bx;
-            let v = ax * cy - ay * cx;
-            let w = bx * ay - by * ax;
-            let (least, greatest) = (least(u, v, w), greatest(u, v, w));
-            let distance = (u * az + v * bz + w * cz) / (u + v + w);
-            let is_met = !(mask(least < 0.0) & mask(greatest > 0.0)) & mask(distance > 0.0);
-            t[lane] =
-                f32::from_bits((distance.to_bits() & is_met) | (f32::INFINITY.to_bits() & !is_met));
-            is_doubtful[lane] = mask(least == 0.0) | mask(greatest == 0.0);
+            let [x, y, z] = queue[lane].point;
+            let direction = Vec3::new(x, y, z).normalize();
+            (dx[lane], dy[lane], dz[lane]) = (direction.x, direction.y, direction.z);
         }
+        let [dx, dy, dz] = &hits.direction;
+        let [along_x, along_y, along_z] = match axis {
+            0 => [dy, dz, dx],
+            1 => [dz, dx, dy],
+            _ => [dx, dy, dz],
+        };
+        let (mut shear_x, mut shear_y, mut shear_z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            shear_x[lane] = along_x[lane] / along_z[lane];
+            shear_y[lane] = along_y[lane] / along_z[lane];
+            shear_z[lane] = 1.0 / along_z[lane];
+        }
+        let (mut closest_t, mut closest) = ([f32::INFINITY; LANES], [NONE; LANES]);
+        let (mut reflection, mut doubt, mut behind) = ([0.0; LANES], [0; LANES], [0; LANES]);
+        for &triangle in candidates {
+            let [a, b, c] = outlook.seen(axis, triangle);
+            let LaneSurface { probability_of_reflection, frame, .. } = &surfaces[triangle as usize];
+            for lane in 0..LANES {
+                let (sx, sy, sz) = (shear_x[lane], shear_y[lane], shear_z[lane]);
+                let (ax, ay, az) = (a.x - sx * a.z, a.y - sy * a.z, sz * a.z);
+                let (bx, by, bz) = (b.x - sx * b.z, b.y - sy * b.z, sz * b.z);
+                let (cx, cy, cz) = (c.x - sx * c.z, c.y - sy * c.z, sz * c.z);
+                let u = cx * by - cy * bx;
+                let v = ax * cy - ay * cx;
+                let w = bx * ay - by * ax;
+                let (least, greatest) = (least(u, v, w), greatest(u, v, w));
+                let t = (u * az + v * bz + w * cz) / (u + v + w);
+                let is_met = !(mask(least < 0.0) & mask(greatest > 0.0));
+                let is_closer = is_met & mask(t > 0.0) & mask(t < closest_t[lane]);
+                let of_floats = |new: f32, old: f32| {
+                    f32::from_bits((new.to_bits() & is_closer) | (old.to_bits() & !is_closer))
+                };
+                closest_t[lane] = of_floats(t, closest_t[lane]);
+                reflection[lane] = of_floats(*probability_of_reflection, reflection[lane]);
+                closest[lane] = (triangle & is_closer) | (closest[lane] & !is_closer);
+                // As `Triangle::faces`.
+                let cosine = dx[lane] * frame[6] + dy[lane] * frame[7] + dz[lane] * frame[8];
+                behind[lane] = (mask(cosine > 0.0) & is_closer) | (behind[lane] & !is_closer);
+                // Beside a true negative and a true positive one, a zero changes nothing.
+                doubt[lane] |= mask(least == 0.0) | mask(greatest == 0.0);
+            }
+        }
+        for lane in 0..LANES {
+            doubt[lane] |= behind[lane];
+        }
+        (hits.t, hits.triangle) = (closest_t, closest);
+        (hits.reflection, hits.is_doubtful) = (reflection, doubt);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::outlook::aim;
+    use super::super::outlook::rough_cell;
     use super::*;
+    use crate::lanes::width::Width;
     use photon_mapping::random::photon_random;
     use photon_mapping::scene::triangle::Triangle;
 
@@ -193,32 +185,51 @@ mod tests {
             for Triangle { vertices: [a, b, c], .. } in &triangles {
                 targets.extend([*a, 0.5 * (*b + *c), (*a + *b + *c) / 3.0]);
             }
-            let directions = targets.iter().filter_map(|target| (*target - light).try_normalize());
-            let directions: Vec<Vec3> = directions.collect();
+            let surfaces: Vec<LaneSurface> = (0_u8..)
+                .zip(&triangles)
+                .map(|(number, triangle)| LaneSurface {
+                    mesh_object: 0,
+                    probability_of_reflection: 0.01 * f32::from(number + 1),
+                    frame: [[0.0; 3], [0.0; 3], triangle.normal.to_array()]
+                        .as_flattened()
+                        .try_into()
+                        .expect("nine numbers"),
+                })
+                .collect();
             let scene = Scene::new(Vec::new(), triangles, Vec::new());
             let outlook = Outlook::new(&scene, light, &[1.0; 12]);
-            for width in Width::available() {
-                let mut found = FirstHits::new(&outlook, width, 12, directions.len());
-                for (place, direction) in directions.iter().enumerate() {
-                    let (cell, shear) = aim(*direction);
-                    let place = f32::from_bits(place as u32);
-                    found.add(cell, [shear.x, shear.y, shear.z, place]);
+            let mut hits = FirstHits::default();
+            for target in targets {
+                let aside = target - light;
+                if aside == Vec3::ZERO {
+                    continue;
                 }
-                found.finish();
-                for (place, direction) in directions.iter().enumerate() {
-                    let mut state = IntersectionState::new();
-                    let ray = Ray::new(light, *direction);
-                    let is_met = scene.trace(&ray, Some(&mut state));
-                    let hit = found.hit(place, &scene, &ray);
-                    assert_eq!(is_met, hit.is_some());
-                    if let Some(hit) = hit {
-                        assert_eq!(state.intersected_primitive as u32, hit.triangle);
-                        assert_eq!(state.intersection_t.to_bits(), hit.t.to_bits());
-                        met += 1;
+                let list = outlook.list(rough_cell(aside));
+                let point = aside.to_array();
+                let queue = [EmittedPhoton { point, draws: Draws::default() }; LANES];
+                let direction = aside.normalize();
+                let mut state = IntersectionState::new();
+                let is_met = scene.trace(&Ray::new(light, direction), Some(&mut state));
+                for width in Width::available() {
+                    let (outlook, surfaces, queue) = (&outlook, &surfaces[..], &queue);
+                    width.run(Meet { outlook, list, surfaces, queue, hits: &mut hits });
+                    hits.settle(&scene, surfaces, light, LANES);
+                    for lane in 0..LANES {
+                        assert_eq!(hits.direction(lane), direction);
+                        assert_eq!(is_met, hits.triangle[lane] != NONE);
+                        let expected = if is_met {
+                            assert_eq!(state.intersected_primitive as u32, hits.triangle[lane]);
+                            assert_eq!(state.intersection_t.to_bits(), hits.t[lane].to_bits());
+                            met += 1;
+                            surfaces[state.intersected_primitive].probability_of_reflection
+                        } else {
+                            0.0
+                        };
+                        assert_eq!(expected, hits.reflection[lane]);
                     }
                 }
             }
         }
-        assert!(met > 1000, "{met}");
+        assert!(met > 10_000, "{met}");
     }
 }

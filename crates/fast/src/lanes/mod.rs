@@ -52,6 +52,7 @@ use photon_mapping::scene::triangle::Triangle;
 use closest_hit::SharedCorners;
 use offset::Offset;
 use outlook::Outlook;
+use wave::Wave;
 use width::Width;
 
 /// Scenes with more triangles than this are traced one ray at a time, with the scene's tree.
@@ -171,10 +172,11 @@ impl<'renderer> LaneTracer<'renderer> {
         let lights = self.renderer.stored_scene.lights();
         let of_lights = self.renderer.photons_of_lights();
         for ((light, outlook), of_light) in lights.iter().zip(&self.outlooks).zip(of_lights) {
-            let wave = of_light.start.max(photons.start)..of_light.end.min(photons.end);
-            if !wave.is_empty() {
-                let light_intensity = light.color / (of_light.end - of_light.start) as f32;
-                self.trace_wave(light, outlook, light_intensity, wave, &mut records, &mut done);
+            let photons = of_light.start.max(photons.start)..of_light.end.min(photons.end);
+            if !photons.is_empty() {
+                let intensity = light.color / (of_light.end - of_light.start) as f32;
+                let wave = Wave::new(self, (light, outlook), intensity, &mut done);
+                records.append(&mut wave.trace(photons));
             }
         }
         records

@@ -24,6 +24,7 @@
 //! no tracing. [`Outlook::may_go_on`] plays its roulette against the largest reflection in its
 //! cell. [`super::first_hit`] tests those that remain.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use glam::Vec3;
@@ -54,12 +55,22 @@ const LARGEST: f32 = 1e9;
 pub struct Outlook {
     /// The corners seen from the light, once for each axis that a ray runs along.
     seen: [Vec<[Vec3; 3]>; 3],
-    /// Of each cell, where in `triangles` its triangles are, in ascending order.
-    cells: Vec<Range<u32>>,
+    /// The place of each cell's list, in `lists`. The last one is of [`UNKNOWN`].
+    list_of_cell: Box<[u16; ROUGH_CELLS]>,
+    lists: Vec<CandidateList>,
     triangles: Vec<u32>,
     /// The greatest probability of reflection that a photon through the cell may meet, in 128ths,
     /// rounded up: a byte a cell leaves room in the first-level cache.
     reflection: Box<[u8; ROUGH_CELLS]>,
+}
+
+/// What the rays of some cells may meet.
+#[derive(Clone, Debug)]
+struct CandidateList {
+    /// The axis along which these rays run.
+    axis: usize,
+    /// Where in [`Outlook::triangles`] the triangles are, in ascending order.
+    triangles: Range<usize>,
 }
 
 /// The face of the cube through which `direction`, of any length, leaves, and the direction in the
@@ -154,36 +165,45 @@ impl Outlook {
             scene.triangles().iter().map(|triangle| triangle.vertices.map(turn)).collect()
         };
         let seen = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| turned(ShearedRay::axes(axis)));
-        let mut cells = vec![0_u32..0; CELLS];
+        // Of the cells in which there is nothing.
+        let mut lists = vec![CandidateList { axis: 0, triangles: 0..0 }];
         let mut triangles = Vec::new();
+        let mut list_of_cell = Box::new([0_u16; ROUGH_CELLS]);
+        let mut places = HashMap::new();
         for face in 0..6 {
             let corners = &seen[face / 2];
-            let face = OccluderFace {
+            let occluders = OccluderFace {
                 corners,
                 is_negative: face % 2 == 1,
                 first_cell: face * EDGE * EDGE,
             };
+            let axis = face / 2;
             let all: Vec<u32> = (0..corners.len() as u32).collect();
-            face.divide(&all, [0, 0], EDGE, &mut |cell, of_cell| {
-                let start = triangles.len();
-                triangles.extend_from_slice(of_cell);
-                cells[cell] = start as u32..triangles.len() as u32;
+            occluders.divide(&all, [0, 0], EDGE, &mut |cell, of_cell| {
+                list_of_cell[cell] = *places.entry((axis, of_cell.to_vec())).or_insert_with(|| {
+                    let start = triangles.len();
+                    triangles.extend_from_slice(of_cell);
+                    lists.push(CandidateList { axis, triangles: start..triangles.len() });
+                    (lists.len() - 1) as u16
+                });
             });
         }
+        // Of the cells that nothing is known of.
+        list_of_cell[CELLS..].fill(lists.len() as u16);
         let greatest = |places: &mut dyn Iterator<Item = f32>| places.fold(0.0, f32::max);
         let of_scene = greatest(&mut reflection.iter().copied());
         let of_cell = |cell: usize| {
             if cell >= CELLS {
                 return of_scene;
             }
-            let of_cell = &triangles[cells[cell].start as usize..cells[cell].end as usize];
+            let of_cell = &triangles[lists[usize::from(list_of_cell[cell])].triangles.clone()];
             greatest(&mut of_cell.iter().map(|triangle| reflection[*triangle as usize]))
         };
         let of_cells = Box::new(std::array::from_fn(|cell| {
             (of_cell(cell) * 128.0).ceil().clamp(0.0, 128.0) as u8
         }));
         let reflection = of_cells;
-        Self { seen, cells, triangles, reflection }
+        Self { seen, list_of_cell, lists, triangles, reflection }
     }
 
     /// Whether a photon through [`rough_cell`] `cell` may meet something and be reflected there
@@ -194,17 +214,22 @@ impl Outlook {
         word >> 25 < u32::from(self.reflection[cell as usize % ROUGH_CELLS])
     }
 
-    /// The triangles that a ray through `cell` may meet, in ascending order.
-    #[inline(always)]
-    pub fn candidates(&self, cell: u32) -> &[u32] {
-        let Range { start, end } = self.cells[cell as usize];
-        &self.triangles[start as usize..end as usize]
+    /// How many lists of triangles there are.
+    pub fn lists(&self) -> usize {
+        self.lists.len()
     }
 
-    /// The axis along which rays through `cell` run.
+    /// The place of the list of `cell`: [`Self::lists`] for [`UNKNOWN`].
     #[inline(always)]
-    pub fn axis(cell: u32) -> usize {
-        cell as usize / (2 * EDGE * EDGE)
+    pub fn list(&self, cell: u32) -> usize {
+        self.list_of_cell[cell as usize % ROUGH_CELLS].into()
+    }
+
+    /// The axis along which the rays of `list` run, and the triangles that they may meet, in
+    /// ascending order.
+    pub fn candidates(&self, list: usize) -> (usize, &[u32]) {
+        let CandidateList { axis, triangles } = &self.lists[list];
+        (*axis, &self.triangles[triangles.clone()])
     }
 
     /// The corners of `triangle` as rays along `axis` see them from the light, not yet sheared.
@@ -222,8 +247,8 @@ struct OccluderFace<'a> {
 }
 
 impl OccluderFace<'_> {
-    /// Gives `found` every cell of the square of `edge` cells from row and column `start` on, with
-    /// those of `triangles` that a ray through it may meet. What a quarter does not meet, none of
+    /// Gives `found` every cell of the square of `edge` cells from row and column `start` on through
+    /// which a ray may meet some of `triangles`, with these. What a quarter does not meet, none of
     /// its cells does.
     fn divide(
         &self,
@@ -236,9 +261,12 @@ impl OccluderFace<'_> {
         let is_refused = |t: &u32| is_refused(&self.corners[*t as usize], self.is_negative, x, y);
         let triangles: Vec<u32> = triangles.iter().copied().filter(|t| !is_refused(t)).collect();
         let [row, column] = start;
+        if triangles.is_empty() {
+            return;
+        }
         if edge == 1 {
             found(self.first_cell + row * EDGE + column, &triangles);
-        } else if !triangles.is_empty() {
+        } else {
             let half = edge / 2;
             for quarter in [[0, 0], [0, half], [half, 0], [half, half]] {
                 self.divide(&triangles, [row + quarter[0], column + quarter[1]], half, found);
@@ -302,7 +330,7 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::emission::{coordinate, is_in_sphere};
+    use crate::lanes::emission::{RADIUS, coordinate, is_in_sphere};
     use photon_mapping::assignment8;
     use photon_mapping::random::photon_random;
 
@@ -322,8 +350,8 @@ mod tests {
                 // Along the border of a cell.
                 2 => {
                     let [x, _, z] = words.map(coordinate);
-                    let border = z * (x * 16.0).round() / 16.0;
-                    words[0] = (((border + 1.0) * 8_388_608.0) as u32) << 8;
+                    let border = z * (x * 16.0 / RADIUS).round() / 16.0;
+                    words[0] = (((border / RADIUS + 1.0) * 8_388_608.0) as u32) << 8;
                 }
                 _ => {}
             }
@@ -333,9 +361,12 @@ mod tests {
             }
             let (cell, _) = aim(point.normalize());
             let rough = rough_cell(point);
-            assert_eq!(Outlook::axis(rough), Outlook::axis(cell), "{point:?}");
-            if !outlook.candidates(cell).is_empty() {
+            let (axis, candidates) = outlook.candidates(outlook.list(cell));
+            if !candidates.is_empty() {
                 kept += 1;
+                let (rough_axis, rough_candidates) = outlook.candidates(outlook.list(rough));
+                assert_eq!(rough_axis, axis, "{point:?}");
+                assert!(!rough_candidates.is_empty(), "{point:?}");
                 assert!(outlook.may_go_on(rough, 0), "{point:?}");
                 // 0.3 lies between 38 and 39 of 128.
                 assert!(outlook.may_go_on(rough, 38 << 25), "{point:?}");

@@ -28,8 +28,8 @@ impl Views {
         let triangles = scene.triangles().len();
         let outlook = Outlook::new(scene, origin, &vec![0.0; triangles]);
         let bits = |triangles: &[u32]| triangles.iter().fold(0, |bits, t| bits | 1_u128 << t);
-        let mut of_cells: Vec<u128> =
-            (0..outlook::UNKNOWN).map(|cell| bits(outlook.candidates(cell))).collect();
+        let of_cell = |cell: u32| bits(outlook.candidates(outlook.list(cell)).1);
+        let mut of_cells: Vec<u128> = (0..outlook::UNKNOWN).map(of_cell).collect();
         of_cells.push(bits(&(0..triangles as u32).collect::<Vec<_>>()));
         let dots = Neighbourhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS);
         Self { of_cells, all: SharedCorners::new(scene), dots }

@@ -1,298 +1,342 @@
-//! The loop of `trace_photon` turned inside out: not one photon through all of its bounces, but one
-//! bounce for all photons of a wave.
+//! The loop of `trace_photon` turned inside out: not one photon through all of its bounces, but
+//! every step for many photons at once.
+//!
+//! Photons wait before a step until the lanes are full, whatever number of bounces lies behind
+//! them. So they come out in no order, and the records are put in order at the end.
 
 use std::ops::Range;
 
 use glam::Vec3;
 
-use super::chacha::{self, number};
+use super::chacha::number;
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
-use super::emission::{self, Aim, Aims, Emit, LaneEmission, coordinate, is_in_sphere};
-use super::first_hit::{FirstHit, FirstHits};
-use super::outlook::Outlook;
+use super::emission::{self, Emit, LaneEmission, coordinate, is_in_sphere};
+use super::first_hit::{self, EmittedPhoton, FirstHits, Meet, Queue};
+use super::outlook::{Outlook, rough_cell};
 use super::scattering::Scatter;
-use super::{LaneSurface, LaneTracer, Stage};
+use super::{LaneTracer, Stage};
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::point_light::PointLight;
 use photon_mapping::scene::ray::Ray;
 
-/// A photon on its way from the light.
-#[derive(Clone, Copy, Debug)]
-struct EmittedPhoton {
-    direction: Vec3,
-    /// The numbers with which it goes on.
-    draws: Draws,
-}
+/// How many photons on surfaces wait for their next numbers, so that the few that need two blocks
+/// fill the lanes too.
+const ENOUGH_LANDED: usize = 128;
 
 /// A photon on a surface.
 #[derive(Clone, Copy, Debug)]
 struct Arrival {
     point: Vec3,
-    /// Where it came from: the unit vector along which it flew.
-    direction: Vec3,
-    /// How far.
+    /// How far it flew.
     t: f32,
     triangle: u32,
+    /// How often it has bounced.
+    bounce: u16,
 }
 
-/// The photons that are on a surface after the same number of bounces, in order.
-#[derive(Clone, Debug)]
-struct Arrivals {
-    places: Vec<Arrival>,
-    /// The numbers with which each goes on.
-    draws: Vec<Draws>,
+/// Photons that leave their surfaces.
+struct Leaving {
+    count: usize,
+    words: [[u32; closest_hit::GROUP]; 2],
+    point: [[f32; closest_hit::GROUP]; 3],
+    frame: [[f32; closest_hit::GROUP]; 9],
+    needed: [f32; closest_hit::GROUP],
+    /// Number, numbers drawn, and bounces with this one.
+    photon: [(u32, u32, u16); closest_hit::GROUP],
+    rays: Rays,
+    hits: Hits,
 }
 
-impl Arrivals {
-    fn with_capacity(count: usize) -> Self {
-        Self { places: Vec::with_capacity(count), draws: Vec::with_capacity(count) }
-    }
+/// The photons of one light on their way.
+pub(super) struct Wave<'a, D> {
+    tracer: &'a LaneTracer<'a>,
+    outlook: &'a Outlook,
+    light: Vec3,
+    intensity: Vec3,
+    max_bounces: u16,
+    /// Those that wait for what they meet first, by the lists of the outlook. The last ones wait
+    /// for more numbers.
+    queues: Vec<Queue>,
+    /// How many are in each queue.
+    waiting: Vec<u8>,
+    first_hits: FirstHits,
+    /// Those for which the first block was not long enough.
+    again: Vec<EmittedPhoton>,
+    leaving: Leaving,
+    landed: Vec<Arrival>,
+    numbers: Vec<Draws>,
+    records: Vec<PhotonRecord>,
+    /// Is told of every part that is done and for how many photons.
+    done: D,
 }
 
-impl LaneTracer<'_> {
-    /// Traces the photons `photons` of `light` and adds what they store to `records`. `done` is
-    /// told of every part that is done and for how many photons, for those who take the time.
-    pub(super) fn trace_wave(
-        &self,
-        light: &PointLight,
-        outlook: &Outlook,
-        light_intensity: Vec3,
-        photons: Range<u64>,
-        records: &mut Vec<PhotonRecord>,
-        done: &mut impl FnMut(Stage, usize),
-    ) {
-        if self.renderer.max_photon_bounces < 0 {
-            return;
+impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
+    pub(super) fn new(
+        tracer: &'a LaneTracer<'a>,
+        (light, outlook): (&PointLight, &'a Outlook),
+        intensity: Vec3,
+        done: D,
+    ) -> Self {
+        let most = tracer.renderer.max_photon_bounces.max(0);
+        Self {
+            tracer,
+            outlook,
+            light: light.position,
+            intensity,
+            max_bounces: u16::try_from(most).expect("a photon bounces at most 1000 times"),
+            queues: vec![Queue::default(); outlook.lists() + 1],
+            waiting: vec![0; outlook.lists() + 1],
+            first_hits: FirstHits::default(),
+            again: Vec::new(),
+            leaving: Leaving {
+                count: 0,
+                words: [[0; closest_hit::GROUP]; 2],
+                point: [[0.0; closest_hit::GROUP]; 3],
+                frame: [[0.0; closest_hit::GROUP]; 9],
+                needed: [0.0; closest_hit::GROUP],
+                photon: [(0, 0, 0); closest_hit::GROUP],
+                rays: Rays::default(),
+                hits: Hits::default(),
+            },
+            landed: Vec::new(),
+            numbers: Vec::new(),
+            records: Vec::new(),
+            done,
         }
-        let mut arrivals = self.emit(light, outlook, photons, done);
-        let mut by_bounce: Vec<Vec<PhotonRecord>> = Vec::new();
-        for bounce in 1..=self.renderer.max_photon_bounces {
-            arrivals = self.scatter(&arrivals, done);
-            if arrivals.places.is_empty() {
-                break;
-            }
-            let bounce = u16::try_from(bounce).expect("a photon bounces at most 1000 times");
-            let stored =
-                arrivals.places.iter().zip(&arrivals.draws).map(|(arrival, draws)| PhotonRecord {
-                    position: arrival.point,
-                    intensity: light_intensity,
-                    to_light: -arrival.direction,
-                    photon: draws.photon,
-                    bounce,
-                    surface: self.surface(arrival).mesh_object,
-                });
-            by_bounce.push(stored.collect());
-            done(Stage::Records, arrivals.places.len());
-        }
-        join(&by_bounce, records);
-        done(Stage::Records, 0);
     }
 
-    fn surface(&self, arrival: &Arrival) -> &LaneSurface {
-        &self.surfaces[arrival.triangle as usize]
-    }
-
-    /// Where the photons `photons` of `light` hit first, in order, without some that are absorbed
-    /// there.
-    fn emit(
-        &self,
-        light: &PointLight,
-        outlook: &Outlook,
-        photons: Range<u64>,
-        done: &mut impl FnMut(Stage, usize),
-    ) -> Arrivals {
-        let count = (photons.end - photons.start) as usize;
-        let mut departures = self.depart(outlook, photons);
-        done(Stage::Emission, count);
-        let count = departures.len();
-        let triangles = self.surfaces.len();
-        let mut first_hits = FirstHits::new(outlook, self.width, triangles, departures.len());
-        let mut point = [[0.0; emission::GROUP]; 3];
-        let mut aims = Aims::default();
-        for (group, departures) in departures.chunks_mut(emission::GROUP).enumerate() {
-            for (lane, departure) in departures.iter().enumerate() {
-                for (column, coordinate) in point.iter_mut().zip(departure.direction.to_array()) {
-                    column[lane] = coordinate;
-                }
-            }
-            let first = (group * emission::GROUP) as u32;
-            self.width.run(Aim { point: &point, first, aims: &mut aims });
-            for (lane, departure) in departures.iter_mut().enumerate() {
-                departure.direction = Vec3::from_array([0, 1, 2].map(|c| aims.direction[c][lane]));
-                first_hits.add(aims.cell[lane], aims.aimed[lane]);
-            }
+    /// Traces the photons `photons` and gives the records of what they store.
+    pub(super) fn trace(mut self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        if self.max_bounces == 0 {
+            return Vec::new();
         }
-        first_hits.finish();
-        let mut arrivals = Arrivals::with_capacity(departures.len());
-        let scene = &self.renderer.stored_scene;
-        for (place, EmittedPhoton { direction, draws }) in departures.into_iter().enumerate() {
-            let ray = Ray::new(light.position, direction);
-            if let Some(FirstHit { t, triangle }) = first_hits.hit(place, scene, &ray) {
-                let point = ray.ray_position(t);
-                arrivals.places.push(Arrival { point, direction, t, triangle });
-                arrivals.draws.push(draws);
-            }
-        }
-        done(Stage::FirstHit, count);
-        let count = self.complete(&mut arrivals.draws);
-        done(Stage::Numbers, count);
-        arrivals
-    }
-
-    /// Those of the photons `photons` that may hit something and be reflected there, in order, with
-    /// directions that are not yet normalised.
-    fn depart(&self, outlook: &Outlook, photons: Range<u64>) -> Vec<EmittedPhoton> {
+        // Of the handout's photons, one in twenty is stored.
+        self.records.reserve((photons.end - photons.start) as usize / 16);
         let mut emission = LaneEmission::default();
-        // Of the handout's photons, one in five.
-        let expected = (photons.end - photons.start) as usize / 4;
-        let mut departures: Vec<EmittedPhoton> = Vec::with_capacity(expected);
-        // The places of those for which the first block was not long enough.
-        let mut again = Vec::new();
         for first in photons.clone().step_by(emission::GROUP) {
             let count = (photons.end - first).min(emission::GROUP as u64) as usize;
-            let first = first as u32;
-            let seed = self.renderer.seed;
-            self.width.run(Emit { seed, first, emission: &mut emission });
-            // Without a branch, since which photons these are cannot be predicted.
-            let mut lanes = [0; emission::GROUP];
-            let mut departing = 0;
-            for (lane, (cell, roulette)) in emission.cell.iter().zip(&emission.next[0]).enumerate()
-            {
-                lanes[departing % emission::GROUP] = lane as u8;
-                departing += usize::from(outlook.may_go_on(*cell, *roulette) & (lane < count));
+            self.emit(first as u32, count, &mut emission);
+            if self.landed.len() >= ENOUGH_LANDED {
+                self.play_roulette();
             }
-            departures.extend(lanes[..departing].iter().map(|&lane| {
-                let at = usize::from(lane) % emission::GROUP;
-                EmittedPhoton {
-                    direction: Vec3::from_array([0, 1, 2].map(|c| emission.point[c][at])),
-                    draws: Draws {
-                        photon: first.wrapping_add(lane.into()),
-                        drawn: emission.drawn[at],
-                        words: [0, 1, 2].map(|n| emission.next[n][at]),
-                    },
-                }
-            }));
-            let places = departures.len() - departing..departures.len();
-            again.extend(places.filter(|place| departures[*place].draws.drawn == 0));
         }
-        self.try_again(&mut departures, again);
-        departures
+        self.forward(self.outlook.lists());
+        self.draw_again();
+        for list in 0..self.queues.len() {
+            self.forward(list);
+        }
+        while !self.landed.is_empty() || self.leaving.count > 0 {
+            self.play_roulette();
+            self.scatter();
+        }
+        let records = in_order(&self.records);
+        (self.done)(Stage::Records, 0);
+        records
     }
 
-    /// Draws again what the first block was not long enough for, and counts it.
-    fn complete(&self, draws: &mut [Draws]) -> usize {
-        let is_lacking = |draws: &Draws| draws.drawn + 3 > chacha::WORDS as u32;
-        let lacking: Vec<usize> = (0..draws.len()).filter(|at| is_lacking(&draws[*at])).collect();
-        let mut completed: Vec<Draws> = lacking.iter().map(|at| draws[*at]).collect();
-        draws::fill(self.width, self.renderer.seed, &mut completed);
-        let count = lacking.len();
-        for (at, completed) in lacking.into_iter().zip(completed) {
-            draws[at] = completed;
+    /// Emits the `count` photons from number `first` on. Those go on that may hit something and be
+    /// reflected there.
+    fn emit(&mut self, first: u32, count: usize, emission: &mut LaneEmission) {
+        let Self { tracer, outlook, .. } = *self;
+        let seed = tracer.renderer.seed;
+        tracer.width.run(Emit { seed, first, emission });
+        // Without a branch, since which photons these are cannot be predicted.
+        let mut lanes = [0; emission::GROUP];
+        let mut departing = 0;
+        for (lane, (cell, roulette)) in emission.cell.iter().zip(&emission.next[0]).enumerate() {
+            lanes[departing % emission::GROUP] = lane as u8;
+            departing += usize::from(outlook.may_go_on(*cell, *roulette) & (lane < count));
         }
-        count
+        (self.done)(Stage::Emission, count);
+        for lane in &lanes[..departing] {
+            let lane = usize::from(*lane) % emission::GROUP;
+            let list = outlook.list(emission.cell[lane]);
+            let point = [0, 1, 2].map(|c| emission.point[c][lane]);
+            let (photon, drawn) = (first.wrapping_add(lane as u32), emission.drawn[lane]);
+            let words = [0, 1, 2].map(|n| emission.next[n][lane]);
+            self.wait(list, EmittedPhoton { point, draws: Draws { photon, drawn, words } });
+        }
+        (self.done)(Stage::FirstHit, departing);
     }
 
-    /// Goes on with the rejection loops of the departures at `places`.
-    fn try_again(&self, departures: &mut [EmittedPhoton], mut places: Vec<usize>) {
-        let of_place = |place: &usize| {
-            let photon = departures[*place].draws.photon;
-            Draws { photon, drawn: emission::DRAWN_IN_VAIN, words: [0; 3] }
-        };
-        let mut tries: Vec<Draws> = places.iter().map(of_place).collect();
+    /// Lets `photon` wait for others of `list`.
+    #[inline(always)]
+    fn wait(&mut self, list: usize, photon: EmittedPhoton) {
+        let waiting = &mut self.waiting[list];
+        let lane = usize::from(*waiting) % first_hit::LANES;
+        *waiting = lane as u8 + 1;
+        self.queues[list][lane] = photon;
+        if lane + 1 == first_hit::LANES {
+            self.forward(list);
+        }
+    }
+
+    /// Finds what the waiting photons of `list` hit first, and plays their roulette.
+    fn forward(&mut self, list: usize) {
+        let Self { tracer, outlook, .. } = *self;
+        let waiting = usize::from(std::mem::take(&mut self.waiting[list]));
+        if waiting == 0 {
+            return;
+        }
+        let (queue, hits) = (&self.queues[list], &mut self.first_hits);
+        if list == outlook.lists() {
+            self.again.extend(&queue[..waiting]);
+            return;
+        }
+        let surfaces = &tracer.surfaces;
+        tracer.width.run(Meet { outlook, list, surfaces, queue, hits });
+        hits.settle(&tracer.renderer.stored_scene, surfaces, self.light, waiting);
+        let mut lanes = [0; first_hit::LANES];
+        let mut reflected = 0;
+        for lane in 0..first_hit::LANES {
+            lanes[reflected % first_hit::LANES] = lane as u8;
+            let is_reflected = number(queue[lane].draws.words[0]) < hits.reflection[lane];
+            reflected += usize::from(is_reflected & (lane < waiting));
+        }
+        (self.done)(Stage::FirstHit, 0);
+        for lane in &lanes[..reflected] {
+            let lane = usize::from(*lane) % first_hit::LANES;
+            let (queue, hits) = (&self.queues[list], &self.first_hits);
+            let (t, triangle) = (hits.t[lane], hits.triangle[lane]);
+            let point = Ray::new(self.light, hits.direction(lane)).ray_position(t);
+            let draws = queue[lane].draws;
+            self.leave(&Arrival { point, t, triangle, bounce: 0 }, &draws);
+        }
+        (self.done)(Stage::Scattering, 0);
+    }
+
+    /// Goes on with the rejection loops for which the first block was not long enough.
+    fn draw_again(&mut self) {
+        let Self { tracer: LaneTracer { width, renderer, .. }, outlook, .. } = *self;
+        let (mut points, mut tries) = (Vec::new(), Vec::new());
+        let mut ready = Vec::new();
+        for photon in self.again.drain(..) {
+            if photon.draws.drawn == 0 {
+                tries.push(Draws { drawn: emission::DRAWN_IN_VAIN, ..photon.draws });
+            } else {
+                points.push(Vec3::from_array(photon.point));
+                ready.push(photon.draws);
+            }
+        }
         while !tries.is_empty() {
-            draws::fill(self.width, self.renderer.seed, &mut tries);
-            let mut remaining = 0;
+            draws::fill(*width, renderer.seed, &mut tries);
+            // Without a branch, as above.
+            let (mut accepted, mut remaining) = (ready.len(), 0);
+            ready.resize(accepted + tries.len(), Draws::default());
+            points.resize(accepted + tries.len(), Vec3::ZERO);
             for at in 0..tries.len() {
                 let mut draws = tries[at];
                 draws.drawn += 3;
                 let point = Vec3::from_array(draws.words.map(coordinate));
-                let departure = &mut departures[places[at]];
-                (departure.direction, departure.draws.drawn) = (point, draws.drawn);
-                (tries[remaining], places[remaining]) = (draws, places[at]);
-                remaining += usize::from(!is_in_sphere(point));
+                let is_accepted = is_in_sphere(point);
+                (points[accepted], ready[accepted], tries[remaining]) = (point, draws, draws);
+                accepted += usize::from(is_accepted);
+                remaining += usize::from(!is_accepted);
             }
+            ready.truncate(accepted);
+            points.truncate(accepted);
             tries.truncate(remaining);
+        }
+        let mut kept = 0;
+        for at in 0..ready.len() {
+            (ready[kept], points[kept]) = (ready[at], points[at]);
+            kept += usize::from(outlook.may_go_on(rough_cell(points[at]), 0));
+        }
+        ready.truncate(kept);
+        draws::fill(*width, renderer.seed, &mut ready);
+        (self.done)(Stage::Numbers, ready.len());
+        for (draws, point) in ready.into_iter().zip(points) {
+            let cell = rough_cell(point);
+            if outlook.may_go_on(cell, draws.words[0]) {
+                let photon = EmittedPhoton { point: point.to_array(), draws };
+                self.wait(outlook.list(cell), photon);
+            }
         }
     }
 
-    /// Plays the roulette for all of `arrivals`, scatters those that survive, and gives what these
-    /// hit next.
-    fn scatter(&self, arrivals: &Arrivals, done: &mut impl FnMut(Stage, usize)) -> Arrivals {
-        let mut survivors = Vec::with_capacity(arrivals.places.len());
-        for (place, (arrival, draws)) in arrivals.places.iter().zip(&arrivals.draws).enumerate() {
-            if number(draws.words[0]) < self.surface(arrival).probability_of_reflection {
-                survivors.push(place);
+    /// Draws for the photons on surfaces, and plays their roulette.
+    fn play_roulette(&mut self) {
+        let (landed, mut numbers) =
+            (std::mem::take(&mut self.landed), std::mem::take(&mut self.numbers));
+        draws::fill(self.tracer.width, self.tracer.renderer.seed, &mut numbers);
+        (self.done)(Stage::Numbers, numbers.len());
+        for (arrival, draws) in landed.iter().zip(&numbers) {
+            let surface = &self.tracer.surfaces[arrival.triangle as usize];
+            if number(draws.words[0]) < surface.probability_of_reflection
+                && arrival.bounce < self.max_bounces
+            {
+                self.leave(arrival, draws);
             }
         }
-        let mut words = [[0; closest_hit::GROUP]; 2];
-        let mut point = [[0.0; closest_hit::GROUP]; 3];
-        let mut frame = [[0.0; closest_hit::GROUP]; 9];
-        let mut needed = [0.0; closest_hit::GROUP];
-        let mut rays = Rays::default();
-        let mut hits = Hits::default();
-        // Of the handout's photons, one in four.
-        let mut next = Arrivals::with_capacity(survivors.len() / 3);
-        for group in survivors.chunks(closest_hit::GROUP) {
-            for (lane, place) in group.iter().enumerate() {
-                let (arrival, draws) = (&arrivals.places[*place], &arrivals.draws[*place]);
-                [words[0][lane], words[1][lane]] = [draws.words[1], draws.words[2]];
-                for (column, coordinate) in point.iter_mut().zip(arrival.point.to_array()) {
-                    column[lane] = coordinate;
-                }
-                for (column, coordinate) in frame.iter_mut().zip(self.surface(arrival).frame) {
-                    column[lane] = coordinate;
-                }
-                let Arrival { point, t, triangle, .. } = *arrival;
-                needed[lane] = self.renderer.stored_scene.offset(triangle as usize, point, t);
-            }
-            self.width.run(Scatter {
-                words: &words,
-                point: &point,
-                frame: &frame,
-                needed: &needed,
-                offset: self.offset,
-                rays: &mut rays,
+        (self.done)(Stage::Scattering, 0);
+    }
+
+    /// Adds a photon that survived the roulette with the first of the words of `draws`.
+    #[inline(always)]
+    fn leave(&mut self, arrival: &Arrival, draws: &Draws) {
+        let Arrival { point, t, triangle, bounce } = *arrival;
+        let leaving = &mut self.leaving;
+        let lane = leaving.count % closest_hit::GROUP;
+        [leaving.words[0][lane], leaving.words[1][lane]] = [draws.words[1], draws.words[2]];
+        for (column, coordinate) in leaving.point.iter_mut().zip(point.to_array()) {
+            column[lane] = coordinate;
+        }
+        let frame = &self.tracer.surfaces[triangle as usize].frame;
+        for (column, coordinate) in leaving.frame.iter_mut().zip(frame) {
+            column[lane] = *coordinate;
+        }
+        let scene = &self.tracer.renderer.stored_scene;
+        leaving.needed[lane] = scene.offset(triangle as usize, point, t);
+        leaving.photon[lane] = (draws.photon, draws.drawn + 3, bounce + 1);
+        leaving.count = lane + 1;
+        if leaving.count == closest_hit::GROUP {
+            self.scatter();
+        }
+    }
+
+    /// Scatters the photons that leave, and stores them where they hit something.
+    fn scatter(&mut self) {
+        let tracer = self.tracer;
+        let Leaving { count, words, point, frame, needed, photon, rays, hits } = &mut self.leaving;
+        let count = std::mem::take(count);
+        let offset = tracer.offset;
+        tracer.width.run(Scatter { words, point, frame, needed, offset, rays });
+        (self.done)(Stage::Scattering, count);
+        tracer.width.run(Closest { scene: &tracer.corners, rays, hits });
+        hits.settle(&tracer.renderer.stored_scene, rays, count);
+        let mut lanes = [0; closest_hit::GROUP];
+        let mut landed = 0;
+        for (lane, triangle) in hits.triangle.iter().enumerate() {
+            lanes[landed % closest_hit::GROUP] = lane as u8;
+            landed += usize::from((*triangle != NONE) & (lane < count));
+        }
+        (self.done)(Stage::LaterHits, count);
+        for lane in &lanes[..landed] {
+            let lane = usize::from(*lane) % closest_hit::GROUP;
+            let (ray, t, triangle) = (rays.ray(lane), hits.t[lane], hits.triangle[lane]);
+            let (photon, drawn, bounce) = photon[lane];
+            let point = ray.ray_position(t);
+            self.landed.push(Arrival { point, t, triangle, bounce });
+            self.numbers.push(Draws { photon, drawn, words: [0; 3] });
+            self.records.push(PhotonRecord {
+                position: point,
+                intensity: self.intensity,
+                to_light: -ray.ray_direction(),
+                photon,
+                bounce,
+                surface: tracer.surfaces[triangle as usize].mesh_object,
             });
-            done(Stage::Scattering, group.len());
-            self.width.run(Closest { scene: &self.corners, rays: &rays, hits: &mut hits });
-            hits.settle(&self.renderer.stored_scene, &rays, group.len());
-            for (lane, place) in group.iter().enumerate() {
-                if hits.triangle[lane] != NONE {
-                    let ray = rays.ray(lane);
-                    next.places.push(Arrival {
-                        point: ray.ray_position(hits.t[lane]),
-                        direction: ray.ray_direction(),
-                        t: hits.t[lane],
-                        triangle: hits.triangle[lane],
-                    });
-                    let Draws { photon, drawn, .. } = arrivals.draws[*place];
-                    next.draws.push(Draws { photon, drawn: drawn + 3, words: [0; 3] });
-                }
-            }
-            done(Stage::LaterHits, group.len());
         }
-        draws::fill(self.width, self.renderer.seed, &mut next.draws);
-        done(Stage::Numbers, next.draws.len());
-        next
+        (self.done)(Stage::Records, landed);
     }
 }
 
-/// The records of all bounces in order of photon, then bounce. A photon stored at its k-th bounce
-/// was stored at every one before, so those of one photon are the heads of the first few lists.
-fn join(by_bounce: &[Vec<PhotonRecord>], records: &mut Vec<PhotonRecord>) {
-    let Some((first, later)) = by_bounce.split_first() else {
-        return;
-    };
-    records.reserve(by_bounce.iter().map(Vec::len).sum());
-    let mut later: Vec<_> = later.iter().map(|records| records.iter().peekable()).collect();
-    for record in first {
-        records.push(*record);
-        for bounce in &mut later {
-            let Some(next) = bounce.next_if(|next| next.photon == record.photon) else {
-                break;
-            };
-            records.push(*next);
-        }
-    }
+/// `records` in order of photon, then bounce. Those of a photon came in the order of its bounces.
+fn in_order(records: &[PhotonRecord]) -> Vec<PhotonRecord> {
+    let key =
+        |(place, record): (usize, &PhotonRecord)| u64::from(record.photon) << 32 | place as u64;
+    let mut keys: Vec<u64> = records.iter().enumerate().map(key).collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|key| records[key as u32 as usize]).collect()
 }
