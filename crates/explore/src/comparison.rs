@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use variants::run::Run;
 use variants::section::Section;
 
-use super::misreading::Misreading;
+use super::misreading::ShownMisreading;
 
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
 /// default of `compare`.
@@ -37,10 +37,10 @@ pub enum Other {
         /// The name of its file.
         name: String,
         /// The misreading that explains it.
-        misreading: Option<Misreading>,
+        misreading: Option<ShownMisreading>,
     },
     /// What a misreading of the table stores.
-    Misreading(Misreading),
+    Misreading(ShownMisreading),
 }
 
 /// A list held against the run's.
@@ -106,7 +106,7 @@ impl ListComparison {
     }
 
     /// What explains the difference, if it is a misreading of the table.
-    fn misreading(&self) -> Option<&Misreading> {
+    fn misreading(&self) -> Option<&ShownMisreading> {
         match &self.other {
             Other::Submission { misreading, .. } => misreading.as_ref(),
             Other::Misreading(misreading) => Some(misreading),
@@ -264,12 +264,12 @@ impl ListComparison {
             Other::Misreading(_) => "misreading",
         };
         let (reason, advice) = match self.misreading() {
-            Some(Misreading { id, title, advice, .. }) if kind == "submission" => {
+            Some(ShownMisreading { id, title, advice, .. }) if kind == "submission" => {
                 let reason =
                     format!("{} This is what {id} of the misreadings stores.", sentence(title));
                 (reason, (*advice).to_owned())
             }
-            Some(Misreading { title, advice, .. }) => (sentence(title), (*advice).to_owned()),
+            Some(ShownMisreading { title, advice, .. }) => (sentence(title), (*advice).to_owned()),
             None if found.is_empty() => (String::new(), note),
             None => (sentence(&(found + doubt)), note),
         };

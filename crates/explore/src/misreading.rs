@@ -32,7 +32,7 @@ const LEFT_WRONG: f64 = 0.02;
 
 /// A misreading of the table.
 #[derive(Clone, Debug)]
-pub struct Misreading {
+pub struct ShownMisreading {
     /// Its name.
     pub id: &'static str,
     /// What it does.
@@ -80,10 +80,10 @@ fn stored(run: &Run, photons: Range<u64>) -> Vec<PhotonRecord> {
 
 /// What the misreading `name` is, and the records that `run`, a run of the handout's scene, stores
 /// under it; nothing if no misreading has this name. Its photons draw the numbers of the run.
-pub fn trace(name: &str, run: &Run) -> Option<(Misreading, Vec<PhotonRecord>)> {
+pub fn trace(name: &str, run: &Run) -> Option<(ShownMisreading, Vec<PhotonRecord>)> {
     let hypothesis = table().into_iter().find(|hypothesis| hypothesis.id == name)?;
     let advised = hypothesis.misreading?;
-    let misreading = Misreading {
+    let misreading = ShownMisreading {
         id: hypothesis.id,
         title: hypothesis.title,
         section: advised.section,
@@ -140,7 +140,7 @@ pub fn trace(name: &str, run: &Run) -> Option<(Misreading, Vec<PhotonRecord>)> {
 
 /// The misreading under which `run`, a run of the handout's scene, stores what `list` has of its
 /// first photons. A list with other random numbers shows none.
-pub fn recognize(list: &PhotonList, run: &Run) -> Option<Misreading> {
+pub fn recognize(list: &PhotonList, run: &Run) -> Option<ShownMisreading> {
     let mut few = run.clone();
     few.renderer.photon_count = few.renderer.photon_count.min(PHOTONS_TRIED);
     let emitted = few.renderer.emitted();

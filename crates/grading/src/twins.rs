@@ -78,7 +78,7 @@ fn hash(position: Vec3, size: f32) -> u64 {
 }
 
 /// Which part of the cells of both lists is in both.
-struct Shared {
+struct SharedParts {
     /// Of those that one of them has.
     of_all: f64,
     /// Of those that the list with fewer has.
@@ -86,7 +86,7 @@ struct Shared {
 }
 
 /// Estimates it from the smallest hashes: those up to where the first of the two ends.
-fn shared(a: &[u64], b: &[u64]) -> Shared {
+fn shared(a: &[u64], b: &[u64]) -> SharedParts {
     // A list with fewer cells than are kept has all of its hashes.
     let end =
         [a, b].into_iter().filter(|hashes| hashes.len() >= KEPT).filter_map(|hashes| hashes.last());
@@ -95,7 +95,7 @@ fn shared(a: &[u64], b: &[u64]) -> Shared {
     let both = a.iter().filter(|hash| b.binary_search(hash).is_ok()).count();
     let fewer = a.len().min(b.len());
     let part = |of: usize| if both < FEWEST_SHARED { 0.0 } else { both as f64 / of as f64 };
-    Shared { of_all: part(a.len() + b.len() - both), of_fewer: part(fewer) }
+    SharedParts { of_all: part(a.len() + b.len() - both), of_fewer: part(fewer) }
 }
 
 /// For each of `all`, which others have the same photons.
