@@ -21,6 +21,24 @@ fn the_page_is_written_and_its_path_printed() {
 }
 
 #[test]
+fn a_known_mistake_of_a_submission_is_named() {
+    let folder = folder();
+    let list = reference_csv(folder.path(), 5000);
+    // Without its first bounces, the list is what a program stores from the third hit on.
+    let text = fs::read_to_string(&list).expect("written");
+    let is_kept = |line: &&str| line.split(',').nth(10) != Some("1");
+    let kept: Vec<&str> = text.lines().filter(is_kept).collect();
+    fs::write(&list, kept.join("\n")).expect("the folder can be written");
+    let line = "explore --photons 5000 --submission {} --out {}";
+    run_line(line, &[&list, folder.path()]).success();
+    let page = fs::read_to_string(folder.path().join("explore.html")).expect("written");
+    assert!(
+        page.contains("photons.csv: Photon Storage")
+            && page.contains("This is the misreading third-hit-on")
+    );
+}
+
+#[test]
 fn explain_prints_the_link_of_the_page_of_its_run() {
     let folder = folder();
     let run = |line: &str| {

@@ -242,7 +242,7 @@ async function start() {
   // For the console and the tests.
   window.page = new Page(run, view);
   view?.drawNow();
-  view?.gl.finish();
+  view?.finish();
   window.page.firstFrame = performance.now();
   document.body.dataset.ready = "yes";
 }

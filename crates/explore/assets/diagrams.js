@@ -89,7 +89,7 @@ const diagrams = {
       text([x(0), 84], "0", "middle small"),
       text([clamp(x(survival), 60, 240), 84], `P_r = ${digits(survival)}`, "middle small"),
       text([x(1), 84], "1", "middle small"),
-      text([clamp(x(u), 95, 205), 18], outcome, "middle strong"),
+      text([clamp(x(u), 102, 198), 18], outcome, "middle strong"),
       arrow([x(u), 23], [x(u), 44], "path"),
       ...inBar(0, survival, "scatters"),
       ...inBar(survival, 1, "absorbed"));

@@ -107,7 +107,7 @@ const panelMethods = {
     $("step-title").textContent = source.title;
     $("say").replaceChildren(...step.say.map((words) => make("p", { textContent: words })));
     $("drawing").replaceChildren(...(step.diagram ? [step.diagram()] : []));
-    const more = step.more.map(([name, value]) =>
+    const more = (step.more ?? []).map(([name, value]) =>
       [make("dt", { textContent: name }), make("dd", { textContent: value })]);
     $("more").replaceChildren(...more.flat());
     this.showChips();

@@ -9,7 +9,8 @@ const about = (x) => `about ${Number(x.toPrecision(4))}`;
 const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
 const degrees = (cosine) => `${((Math.acos(clamp(cosine, -1, 1)) * 180) / Math.PI).toFixed(1)}°`;
 
-/** The steps of `story` in order: {bounce, name, say, values, more, lines, labels, diagram}. */
+/** The steps of `story` in order: {bounce, name, say, values, more, lines, labels, diagram}. The
+ * `values` stand beside lines of the code, and `more` stands beside none. */
 function stepsOf(run, story) {
   const { hits, ending } = story;
   const steps = [emissionStep(story), ...hits.flatMap((hit) => stepsOfHit(run, story, hit))];
@@ -22,7 +23,6 @@ function stepsOf(run, story) {
       ? "remainingBounces is less than 0, so the path ends."
       : "The ray meets no surface, so the photon leaves the scene and the path ends."],
     values: { remaining_bounces: String(run.maxBounces - hits.length), "trace()": "false" },
-    more: [],
   });
   return steps;
 }
@@ -75,10 +75,7 @@ function stepsOfHit(run, story, hit) {
         "trace()": "true",
         intersection_point: vectorText(position),
       },
-      more: [
-        ["surface", `${surface}, face ${facet}`], ["t", digits(t)],
-        ["point", vectorText(position)], ["normal", vectorText(normal)],
-      ],
+      more: [["t", digits(t)], ["normal", vectorText(normal)]],
       lines: [normalLine],
       labels: [["n", normalLine.b]],
       diagram: () => diagrams.hit(cosine),
@@ -100,7 +97,6 @@ function stepsOfHit(run, story, hit) {
         "photon_map.push()": stored ? "runs" : "skipped",
         ...(stored ? { to_light: vectorText(scale(arrival, -1)) } : {}),
       },
-      more: [["stored", stored ? "yes" : "no"]],
       diagram: () => diagrams.path(bounce, story.hits),
     },
     {
@@ -117,10 +113,6 @@ function stepsOfHit(run, story, hit) {
         probability_of_reflection: digits(survival),
         "rand()": digits(roulette),
       },
-      more: [
-        ["u", digits(roulette)], ["P_r", digits(survival)],
-        ["decision", scattered ? "scatters" : "absorbed"],
-      ],
       diagram: () => diagrams.roulette(roulette, survival),
     },
   ];
@@ -153,7 +145,6 @@ function hemisphereStep({ position, face: { normal, tangent, bitangent }, u1, u2
       u1: digits(u1), u2: digits(u2), r: digits(round(r)), theta: near(theta),
       x: near(x), y: near(y), z: digits(round(Math.sqrt(round(1 - u1)))),
     },
-    more: [["u1", digits(u1)], ["u2", digits(u2)]],
     lines: [
       ...arc(0.8, (at) => [Math.cos(2 * at), Math.sin(2 * at), 0]),
       ...arc(0.35, (at) => [Math.cos(at), 0, Math.sin(at)]),
@@ -192,10 +183,6 @@ function frameStep({ position, face, direction, u1 }, normalLine, size) {
       normal: vectorText(normal), is_parallel: String(!isX), axis: axisName,
       tangent: vectorText(tangent), bitangent: vectorText(bitangent),
     },
-    more: [
-      ["t", vectorText(tangent)], ["b", vectorText(bitangent)], ["n", vectorText(normal)],
-      ["|n × axis|", digits(round(bare))],
-    ],
     lines: [tLine, bLine, normalLine, rayLine(position, direction, size)],
     labels: [["t", tLine.b], ["b", bLine.b], ["n", normalLine.b]],
     diagram: () => diagrams.frame(tangent, bitangent, normal, direction, bare),
@@ -205,7 +192,6 @@ function frameStep({ position, face, direction, u1 }, normalLine, size) {
 function rayStep({ maxBounces, offset }, hit, normalLine, size) {
   const { position, direction, bounce, face: { normal } } = hit;
   const start = position.map((p, i) => round(p + round(offset * normal[i])));
-  const isKnown = offset !== null;
   return {
     name: "ray",
     say: [
@@ -215,13 +201,9 @@ function rayStep({ maxBounces, offset }, hit, normalLine, size) {
     ],
     values: {
       world_space_direction: vectorText(direction),
-      ...(isKnown ? { start: vectorText(start), offset: digits(offset) } : {}),
+      ...(offset !== null ? { start: vectorText(start), offset: digits(offset) } : {}),
       remaining_bounces: String(maxBounces - bounce - 1),
     },
-    more: [
-      ["direction", vectorText(direction)],
-      ["offset", isKnown ? `${digits(offset)} along n` : "as this scene needs"],
-    ],
     lines: [rayLine(position, direction, size), normalLine],
     labels: [["n", normalLine.b]],
     diagram: () => diagrams.offset(direction, normal, offset),

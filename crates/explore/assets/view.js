@@ -42,7 +42,6 @@ class View {
   pace = 1;
   moved = 0;
   drawn = 0;
-  frames = 0;
   layers = {};
 
   /** A view on `canvas`; throws where there is no WebGL2. */
@@ -227,8 +226,13 @@ class View {
     gl.disable(gl.DEPTH_TEST);
     this.drawLines("path", camera);
     this.drawDots("marks", camera);
-    this.frames++;
     this.onDraw();
+  }
+
+  /** Waits until everything is drawn; the function of this name in WebGL does not. */
+  finish() {
+    const { gl } = this;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
   /** Device pixels for each CSS pixel. */

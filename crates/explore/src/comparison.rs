@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use compare::alignment::{Pairing, align, with_bounces};
-use compare::explain::{Story, explain, vector};
+use compare::explain::{Hit, explain, vector};
 use compare::position_index::is_near;
 use compare::report::{Outcome, Report, compare, scene_size};
 use glam::Vec3;
@@ -165,7 +165,10 @@ impl ListComparison {
             divergence.submission.clone(),
         ]];
         let (reference, submission) = self.records_of(photon, recorded);
-        sides.extend(values(&story, recorded, reference, submission));
+        // Before the photon has scattered, its records tell no direction.
+        let has_scattered = !["emission", "stored"].contains(&name);
+        let before = story.hits.get(before).filter(|_| recorded > 0 && has_scattered);
+        sides.extend(values(before, reference, submission));
         let other = submission.map(|record| record.position).filter(|place| place.is_finite());
         Some(PartingStep {
             photon,
@@ -249,15 +252,15 @@ impl ListComparison {
             Outcome::SameUnderAnotherReading => Some("the same under another fair reading"),
             Outcome::Different => None,
         };
+        let divergence = first_divergence.as_ref();
+        let found = divergence.and_then(|divergence| divergence.reason.as_deref());
+        let is_certain = divergence.is_none_or(|divergence| divergence.certain);
+        let doubt = if is_certain || self.misreading().is_some() { "" } else { " (perhaps)" };
         let verdict = match (same, self.section()) {
             (Some(same), _) => format!("{name}: {same}"),
-            (None, Some(section)) => format!("{name}: {}", section.title()),
+            (None, Some(section)) => format!("{name}: {}{doubt}", section.title()),
             (None, None) => format!("{name}: different"),
         };
-        let divergence = first_divergence.as_ref();
-        let found = divergence.and_then(|divergence| divergence.reason.clone()).unwrap_or_default();
-        let doubt =
-            if divergence.is_none_or(|divergence| divergence.certain) { "" } else { " (perhaps)" };
         let note = self.report.note.as_deref().map(sentence).unwrap_or_default();
         let kind = match &self.other {
             Other::Submission { .. } => "submission",
@@ -265,13 +268,11 @@ impl ListComparison {
         };
         let (reason, advice) = match self.misreading() {
             Some(ShownMisreading { id, title, advice, .. }) if kind == "submission" => {
-                let reason =
-                    format!("{} This is what {id} of the misreadings stores.", sentence(title));
+                let reason = format!("{} This is the misreading {id}.", sentence(title));
                 (reason, (*advice).to_owned())
             }
             Some(ShownMisreading { title, advice, .. }) => (sentence(title), (*advice).to_owned()),
-            None if found.is_empty() => (String::new(), note),
-            None => (sentence(&(found + doubt)), note),
+            None => (found.map(sentence).unwrap_or_default(), note),
         };
         json!({
             "kind": kind,
@@ -292,10 +293,9 @@ impl ListComparison {
     }
 }
 
-/// Both lists' values of the record of bounce `bounce`, with labels.
+/// Both lists' values of a record, with labels. `before` is the hit from which its photon came.
 fn values(
-    story: &Story,
-    bounce: usize,
+    before: Option<&Hit>,
     reference: Option<&PhotonRecord>,
     submission: Option<&PhotonRecord>,
 ) -> Vec<[String; 3]> {
@@ -307,7 +307,6 @@ fn values(
         let [a, b] = [reference, submission].map(|record| tell(record.map(position)));
         rows.push(["position".to_owned(), a, b]);
     }
-    let before = bounce.checked_sub(1).and_then(|before| story.hits.get(before));
     // From a point as close as rounding, the way tells no direction.
     let way = before.zip(submission).map(|(before, other)| other.position - before.point());
     if let (Some(before), Some(way)) = (before, way.filter(|way| way.length() > NEAREST)) {
@@ -324,7 +323,7 @@ fn values(
 /// `clause` with a capital and a full stop; symbols, as r and t, keep their case.
 fn sentence(clause: &str) -> String {
     let mut letters = clause.chars();
-    let is_word = clause.chars().take(2).all(char::is_alphabetic);
+    let is_word = clause.starts_with("a ") || clause.chars().take(2).all(char::is_alphabetic);
     let first: String = match letters.next() {
         Some(first) if is_word => first.to_uppercase().collect(),
         first => first.into_iter().collect(),

@@ -176,7 +176,7 @@ fn a_submission_that_shows_a_misreading_is_told_so() {
         let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
         let page = reference.exploration(Some(&comparison)).page();
         assert!(page.contains(&expected), "{name}: {expected}");
-        assert!(page.contains(&format!("This is what {name} of the misreadings stores.")));
+        assert!(page.contains(&format!("This is the misreading {name}.")));
     }
     // The reference itself shows none, nor does a list that breaks off or has other numbers.
     let reference = traced("");
