@@ -261,7 +261,7 @@ fn the_section_of_every_mistake_is_named() {
     }
 }
 
-const READINGS: [(&str, &str); 13] = [
+const READINGS: [(&str, &str); 15] = [
     ("--reading literal", "t and b to the letter of the handout, not normalized"),
     (
         "--threshold 0.7",
@@ -284,6 +284,16 @@ const READINGS: [(&str, &str); 13] = [
         "--threshold 0.8 --offset-normal 1e-3",
         "the fallback axis in equation (7) at absolute dot products of 0.9536 or more (not at \
          0.3011), offset 1e-3 along the normal",
+    ),
+    (
+        "--threshold 0.7 --offset-normal 1e-3",
+        "the fallback axis in equation (7) at absolute dot products of 0.9536 or more (not at \
+         0.3011), offset 1e-3 along the normal",
+    ),
+    (
+        "--threshold 0.8 --offset-normal 0 --offset-direction 1e-5",
+        "the fallback axis in equation (7) at absolute dot products of 0.9536 or more (not at \
+         0.3011), offset along the new direction",
     ),
     (
         "--reading literal --offset-normal 0 --offset-back 6.7e-3",
