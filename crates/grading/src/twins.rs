@@ -1,23 +1,10 @@
 //! Lists with the same photons, also if they are rounded, reordered or numbered anew.
 
+use crate::limits::twins::{FEWEST, KEPT, LARGE_CELL, MOST_IN_LARGE_CELLS, SAME, SMALL_CELL};
 use std::collections::BTreeSet;
 
 use glam::Vec3;
 use photon_mapping::photon_list::PhotonRecord;
-
-/// Of the cells that a list's photons lie in, so many with the smallest hashes stand for all.
-const KEPT: usize = 128;
-/// Fewer different cells say nothing.
-const FEWEST: usize = 20;
-/// Of this part of their cells, two lists have in common what no two runs have: 0.13 is what those
-/// of 1,000,000 photons emitted share in large cells.
-const SAME: f64 = 0.4;
-/// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
-/// long lists are all alike.
-const LARGE_CELL: f32 = 1e-2;
-const SMALL_CELL: f32 = 1e-3;
-/// Longer lists are compared in small cells.
-const MOST_IN_LARGE_CELLS: usize = 100_000;
 
 /// What tells the photons of a list from others'.
 #[derive(Clone, Debug, PartialEq, Eq)]
