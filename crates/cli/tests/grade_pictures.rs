@@ -1,5 +1,7 @@
 //! `grade` on pictures: through the library, and as a user runs it.
 
+#[path = "../../grading/examples/common/simulated_pictures.rs"]
+mod simulated_pictures;
 mod support;
 
 use std::fs;
@@ -16,13 +18,13 @@ use grading::picture::expected::expect;
 use grading::picture::judge::{PictureJudgement, judge_dots};
 use grading::picture::reading::read_picture;
 use grading::picture::signature::measure;
-use grading::picture::trials::{misread, simulate_dots};
 use grading::picture::view::{PIXELS, View};
 use grading::places::Places;
 use image::{DynamicImage, Rgb, RgbImage, imageops};
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use serde_json::Value;
+use simulated_pictures::{misread, simulate_dots};
 use support::{folder, json, run_line};
 use variants::hypotheses::fair_readings;
 use variants::variation::{Emission, Hemisphere, Roulette, Simulation, Variation};

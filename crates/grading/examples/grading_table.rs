@@ -4,20 +4,22 @@
 //! `cargo run --release -p photon-mapping-grading --example grading_table -- [--false-alarms N]
 //! [--seeds N] [--only MISREADING]`
 
+#[path = "common/limit.rs"]
+mod limit;
+
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};
-use grading::expected::fit_size;
 use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
 use grading::observation::observe;
 use grading::places::{Place, Places};
 use grading::signature::Signatures;
+use limit::best_test;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use rayon::prelude::*;
-use statrs::function::erf::erfc;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::pairs;
 use variants::reading::{Reading, TangentBasis};
@@ -88,12 +90,11 @@ fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expe
     println!("## Correct submissions called incorrect\n");
     println!(
         "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to \
-         1e-3 along \
-         the new direction, left-handed frames, positions up to 0.007 off their surface, three \
-         generators (one of 15 bits), with and without the \
-         number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the smallest of a \
-         list, corrected for the number of tests; below \
-         {SIGNIFICANCE:.0e} it is called incorrect.\n"
+         1e-3 along the new direction, left-handed frames, positions up to 0.007 off their \
+         surface, numbers of three generators (one of 15 bits), of Halton and stratified, with and \
+         without the number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the \
+         smallest of a list, corrected for the number of tests; below {SIGNIFICANCE:.0e} it is \
+         called incorrect.\n"
     );
     println!("| emitted | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
     println!("|---|---|---|---|---|---|");
@@ -151,12 +152,12 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
     let max_bounces = expectations.signatures.max_bounces;
     let simulation = Simulation::new(variation, 7_000_000 + index, emitted, max_bounces);
     let other_generator = emitted <= 200_000 && settings.one_of(&[true, false]);
-    let mut records = match other_generator {
-        true if settings.one_of(&[true, false]) => {
-            simulation.trace_with(0..emitted, Drand48::new(index))
-        }
-        true => simulation.trace_with(0..emitted, FifteenBits(index as u32)),
-        false => simulation.trace(0..emitted),
+    let mut records = match settings.one_of(&[0, 1, 2, 3]) {
+        _ if !other_generator => simulation.trace(0..emitted),
+        0 => simulation.trace_with(0..emitted, Drand48::new(index)),
+        1 => simulation.trace_with(0..emitted, FifteenBits(index as u32)),
+        2 => simulation.trace_one_by_one(0..emitted, |photon| halton(photon, index)),
+        _ => simulation.trace_one_by_one(0..emitted, |photon| stratified(photon, emitted, index)),
     };
     let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
     shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
@@ -198,6 +199,45 @@ impl Iterator for FifteenBits {
     fn next(&mut self) -> Option<f32> {
         self.0 = self.0.wrapping_mul(214_013).wrapping_add(2_531_011);
         Some(((self.0 >> 16) & 0x7FFF) as f32 / 32_768.0)
+    }
+}
+
+/// The numbers of one photon by Halton, each base moved round by a random part as Cranley and
+/// Patterson do; after the bases given here, random ones.
+fn halton(photon: u64, seed: u64) -> impl FnMut() -> f32 {
+    let mut bases = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37].into_iter();
+    let (mut moved, mut random) = (photon_random(seed, 1 << 31), photon_random(seed, photon));
+    move || {
+        match bases.next() {
+            Some(base) => (radical_inverse(photon, base) + f64::from(moved())).fract() as f32,
+            None => random(),
+        }
+        .min(1.0_f32.next_down())
+    }
+}
+
+/// The digits of `number` to `base`, mirrored at the point.
+fn radical_inverse(mut number: u64, base: u64) -> f64 {
+    let (mut inverse, mut unit) = (0.0, 1.0);
+    while number > 0 {
+        unit /= base as f64;
+        inverse += unit * (number % base) as f64;
+        number /= base;
+    }
+    inverse
+}
+
+/// The numbers of one photon, where the first five are stratified: as many strata as photons, each
+/// with one photon, and the photons in another order for every number.
+fn stratified(photon: u64, emitted: u64, seed: u64) -> impl FnMut() -> f32 {
+    // Primes that divide no number of photons here, so that every stratum has its turn.
+    let mut steps = [1, 104_729, 15_485_863, 32_452_843, 49_979_687].into_iter();
+    let mut random = photon_random(seed, photon);
+    move || {
+        let within = f64::from(random());
+        let stratum = steps.next().map(|step| (photon * step % emitted) as f64);
+        let number = stratum.map_or(within, |stratum| (stratum + within) / emitted as f64);
+        (number as f32).min(1.0_f32.next_down())
     }
 }
 
@@ -343,31 +383,12 @@ fn limit(id: &str, size: u64, content: Content, expectations: &Expectations) -> 
         .map(|known| {
             let counts: Vec<f64> =
                 known.signature.cells.iter().map(|mean| mean * size as f64).collect();
-            let fair = signatures.fair.iter().map(|fair| {
-                let of = |size| fair.signature.of_cells(&signatures.correlation, &none, size);
-                let size = emitted.unwrap_or_else(|| fit_size(&counts, |n| of(n).mean, of));
-                let law = of(size).law(emitted.is_none());
-                let apart: f64 = law
-                    .towards(&counts, [counts.clone()].into_iter())
-                    .map(|(_, apart)| apart)
-                    .sum();
-                0.5 * erfc((quantile(SIGNIFICANCE) - apart) / std::f64::consts::SQRT_2)
-            });
-            fair.fold(1.0, f64::min)
+            best_test(&counts, emitted, signatures.fair.iter(), |fair, size| {
+                fair.signature.of_cells(&signatures.correlation, &none, size)
+            })
         })
         .collect();
     (!powers.is_empty()).then(|| powers.iter().sum::<f64>() / powers.len() as f64)
-}
-
-/// How many standard deviations a normal number is above 0 with the chance `p`.
-fn quantile(p: f64) -> f64 {
-    let mut range = [0.0, 40.0];
-    for _ in 0..60 {
-        let middle = 0.5 * (range[0] + range[1]);
-        let is_low = 0.5 * erfc(middle / std::f64::consts::SQRT_2) > p;
-        range[usize::from(!is_low)] = middle;
-    }
-    range[0]
 }
 
 /// Lists in which two misreadings were made, which no single name tells.

@@ -3,14 +3,8 @@
 use glam::Vec3;
 
 use super::places::{Place, Places};
+use crate::limits::axes::{HARDLY_ALL, NEARLY_ALL, PROBES};
 use photon_list::reader::PhotonList;
-
-/// How many records are looked at.
-const PROBES: usize = 10_000;
-/// In the axes they are in, nearly all photons lie on surfaces; in others, hardly more than half
-/// do.
-const NEARLY_ALL: f64 = 0.95;
-const HARDLY_ALL: f64 = 0.8;
 
 /// Turns `list` to world space if it is plainly in the model's axes, and tells whether it was.
 pub fn turn_to_world(list: &mut PhotonList, places: &Places) -> bool {

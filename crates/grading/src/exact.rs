@@ -2,25 +2,13 @@
 
 use super::submission::Settings;
 use super::verdict::Finding;
+use crate::limits::exact::{BY_ROUNDING, MOST_COMPARED, MOST_PHOTONS, PROBES, SAME_HIT, TOLERANCE};
 use compare::report::{Outcome, Report, compare, scene_size};
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use variants::run::Run;
-
-/// How close two positions must be that count as one, as a part of the scene's longest edge.
-const TOLERANCE: f32 = 1e-4;
-/// The part of the records that may differ by rounding alone, where light grazes an edge.
-const BY_ROUNDING: f32 = 1e-3;
-/// How many photons are looked at to see whether a list follows our streams.
-const PROBES: usize = 200;
-/// How far apart two hits may be that count as one, in world units.
-const SAME_HIT: f32 = 1e-2;
-/// A run of more photons is not traced again, and a list of more records not held against it: both
-/// lists are in memory then.
-const MOST_PHOTONS: u64 = 20_000_000;
-const MOST_COMPARED: usize = 2_000_000;
 
 /// What the exact comparison finds; nothing for lists with other random numbers.
 pub fn exact_comparison(

@@ -1,16 +1,7 @@
 //! What is expected of counts, of photons or of red pixels.
 
 use super::statistics::{Law, Matrix};
-
-/// The numbers of photons emitted between which it is sought, where it is not known.
-const SIZES: [f64; 2] = [1.0, 1e9];
-/// The steps of Gauss and Newton towards it.
-const STEPS: usize = 3;
-/// Of fewer counts than this, the total tells the number best: most cells have none.
-const FEW: f64 = 250.0;
-/// A count is known up to one photon, or pixel: more than the normal law has where few are
-/// expected.
-const VARIANCE_OF_ONE: f64 = 1.0;
+use crate::limits::expected::{FEW, SIZES, STEPS, VARIANCE_OF_ONE};
 
 /// What is expected of some counts, for one number of photons emitted.
 #[derive(Clone, Debug, PartialEq)]

@@ -31,7 +31,7 @@ pub(crate) struct Effort {
     pub(crate) main: u64,
     /// For the other fair readings.
     pub(crate) fair: u64,
-    /// For misreadings that take little time.
+    /// For all else that takes little time.
     pub(crate) fast: u64,
     /// For those of [`WEAK`].
     pub(crate) weak: u64,
@@ -42,13 +42,14 @@ pub(crate) struct Effort {
 impl Effort {
     /// With how many photons `hypothesis` is measured.
     pub(crate) fn photons(&self, hypothesis: &Hypothesis) -> u64 {
-        let Hypothesis { id, variation, misreading, .. } = hypothesis;
+        let Hypothesis { id, variation, .. } = hypothesis;
         let main = [Reading::REFERENCE, Reading::LETTER_OF_THE_HANDOUT];
         match *id {
             FAIR if main.contains(&variation.reading) => self.main,
             FAIR => self.fair,
-            _ if misreading.is_none() => self.other,
-            // So close to "no-roulette" that the likelier must not be the one measured better.
+            // Of two that are close, the likelier must not be the one measured better: so roulettes
+            // that have no name are known as well as those that have one, and what takes long to
+            // measure as well as "no-roulette", which it resembles.
             _ if variation.is_fast() || *id == "late-roulette" => self.fast,
             id if WEAK.contains(&id) => self.weak,
             _ => self.other,

@@ -1,14 +1,11 @@
 //! Where the judge draws its lines: each by an error rate, a resolution, or a measurement.
 
-use std::ops::RangeInclusive;
-
 // Error rates.
 
-/// A submission that is as strange as this by chance alone is called incorrect, in its places, on
-/// the
-/// way to a misreading, or in its marks. Of ten thousand submissions that are correct, one may be;
-/// these tests and their two parts, with the number of photons and without, add up to half of
-/// that. The rest leaves room for what they assume.
+/// A submission that is as strange as this by chance alone is called incorrect, in its places, in
+/// its bounces, or in its marks. Of ten thousand submissions that are correct, one may be: these
+/// tests and [`RATE_OF_WAYS`], in two parts, with the number of photons and without, add up to
+/// that.
 pub const SIGNIFICANCE: f64 = 1e-5;
 /// A list with which a misreading would show what is seen, or something stranger, less often than
 /// this is not explained by it.
@@ -26,6 +23,17 @@ pub(crate) const SUREST: f64 = 0.999;
 /// A constant factor of the intensity with which the photons are less likely than this does not
 /// excuse them: a list that lost as many photons by chance is as likely.
 pub(crate) const LEAST_LIKELY_SLIP: f64 = 0.02;
+
+/// The same of all ways to misreadings together, each of which has a test.
+pub(crate) const RATE_OF_WAYS: f64 = 2e-5;
+/// In the same unit, one of them has at least this: 5.6 standard deviations, which nothing that is
+/// farther away fails to reach.
+pub(crate) const LEAST_OF_WAY: f64 = 1e-8;
+/// Of the lists of a misreading that the best test of it alone finds, its test is to find this
+/// part: 0.95, and a little for what the best one knows besides, as which fair reading it is.
+pub(crate) const POWER_KEPT: f64 = 0.97;
+/// Where the best test finds fewer lists than this, a misreading is hidden, and has none.
+pub(crate) const LEAST_POWER: f64 = 0.15;
 
 // How much rarer one thing is than another before a submission is seen.
 
@@ -59,11 +67,6 @@ pub(crate) const LEEWAY_OF_SELF_HITS: f64 = 0.25;
 pub(crate) const LEEWAY_OF_COVERAGE: f64 = 0.02;
 
 // Resolutions.
-
-/// So many standard deviations is a misreading away where a test of its own is needed. Closer, it
-/// is
-/// seen once in 20 times; farther, a test of 72 cells sees it 999 times in 1000.
-pub(crate) const NEEDED: RangeInclusive<f64> = 3.0..=14.0;
 
 /// Counts are joined until they are expected to be so many standard deviations from none, and from
 /// all that there can be: below, they are too far from normal. Of photons, 25.
@@ -192,3 +195,147 @@ pub(crate) const NUMBER_LEEWAY: f64 = 0.06;
 pub(crate) const FEWEST_GROUPS: usize = 4;
 /// But so few red pixels have no more groups.
 pub(crate) const FEW_RED: f64 = 1000.0;
+
+/// Lists in the model's axes.
+pub(crate) mod axes {
+    /// How many records are looked at.
+    pub(crate) const PROBES: usize = 10_000;
+    /// In the axes they are in, nearly all photons lie on surfaces; in others, hardly more than
+    /// half do.
+    pub(crate) const NEARLY_ALL: f64 = 0.95;
+    pub(crate) const HARDLY_ALL: f64 = 0.8;
+}
+
+/// Lists that follow the streams of the reference.
+pub(crate) mod exact {
+    /// How close two positions must be that count as one, as a part of the scene's longest edge.
+    pub(crate) const TOLERANCE: f32 = 1e-4;
+    /// The part of the records that may differ by rounding alone, where light grazes an edge.
+    pub(crate) const BY_ROUNDING: f32 = 1e-3;
+    /// How many photons are looked at to see whether a list follows our streams.
+    pub(crate) const PROBES: usize = 200;
+    /// How far apart two hits may be that count as one, in world units.
+    pub(crate) const SAME_HIT: f32 = 1e-2;
+    /// A run of more photons is not traced again, and a list of more records not held against it:
+    /// both lists are in memory then.
+    pub(crate) const MOST_PHOTONS: u64 = 20_000_000;
+    pub(crate) const MOST_COMPARED: usize = 2_000_000;
+}
+
+/// What lists say of themselves.
+pub(crate) mod observation {
+    /// An intensity whose inverse is less is none of so many photons, but a colour left as it is,
+    /// perhaps times a constant.
+    pub(crate) const LEAST_NUMBER: f64 = 100.0;
+    /// In a list with fewer decimals than this, photons lie at the same place by rounding alone:
+    /// with three, three in a hundred of the photons of ten million emitted.
+    pub(crate) const FEWEST_DECIMALS: i32 = 4;
+    /// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
+    pub(crate) const EXACT_DECIMALS: i32 = 6;
+}
+
+/// Lists and pictures of this program.
+pub(crate) mod own {
+    /// The seeds that people take, besides the one that the course names.
+    pub(crate) const SEEDS: u64 = 256;
+    /// Of each run the photons of so many emitted are looked for. They do not depend on how many
+    /// there are in all.
+    pub(crate) const EMITTED: u64 = 4000;
+    /// So far apart is a photon that was moved a little, in each coordinate.
+    pub(crate) const NEAR: f32 = 3e-3;
+    /// Of a run's photons, this part must be there: also a tenth of a list has it.
+    pub(crate) const FOUND: f64 = 0.08;
+    /// So many standard deviations more than what chance finds of any run: of 257 runs, the best
+    /// has 3.5, and more where chance finds few.
+    pub(crate) const ABOVE_CHANCE: f64 = 7.0;
+}
+
+/// The same photons twice in a class.
+pub(crate) mod twins {
+    /// Of the cells that a list's photons lie in, so many with the smallest hashes stand for all.
+    pub(crate) const KEPT: usize = 1024;
+    /// Fewer different cells say nothing, nor do fewer that two lists share.
+    pub(crate) const FEWEST: usize = 20;
+    pub(crate) const FEWEST_SHARED: usize = 10;
+    /// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
+    /// long lists are all alike.
+    pub(crate) const LARGE_CELL: f32 = 1e-2;
+    pub(crate) const SMALL_CELL: f32 = 1e-3;
+    /// Longer lists are compared in small cells alone.
+    pub(crate) const MOST_IN_LARGE_CELLS: usize = 60_000;
+    /// Of all cells that one of two lists has, this part is in both only if they have the same
+    /// photons. Two runs of MOST_IN_LARGE_CELLS records share 0.32 of the large cells.
+    pub(crate) const SAME: f64 = 0.45;
+    /// Of the small cells of the shorter list, the other has this part only if it has part of its
+    /// photons. Two runs of MOST_FOR_PART records share 0.03.
+    pub(crate) const PART: f64 = 0.2;
+    pub(crate) const MOST_FOR_PART: usize = 300_000;
+}
+
+/// The number of photons that fits best.
+pub(crate) mod expected {
+    /// The numbers of photons emitted between which it is sought, where it is not known.
+    pub(crate) const SIZES: [f64; 2] = [1.0, 1e9];
+    /// The steps of Gauss and Newton towards it.
+    pub(crate) const STEPS: usize = 3;
+    /// Of fewer counts than this, the total tells the number best: most cells have none.
+    pub(crate) const FEW: f64 = 250.0;
+    /// A count is known up to one photon, or pixel: more than the normal law has where few are
+    /// expected.
+    pub(crate) const VARIANCE_OF_ONE: f64 = 1.0;
+}
+
+/// A list beside a picture.
+pub(crate) mod submission {
+    /// A list and a picture of one run have more than this part of their red pixels in common.
+    pub(crate) const TOGETHER: f64 = 0.5;
+    /// Of fewer red pixels, it is not said that they do not.
+    pub(crate) const FEWEST_DOTS: f64 = 100.0;
+    /// Of [`super::FEW_EMITTED`] photons, so many are stored: one in twenty.
+    pub(crate) const FEW_STORED: u32 = super::FEW_EMITTED as u32 / 20;
+}
+
+/// What is a dot.
+pub(crate) mod dots {
+    /// A channel of the direct light may differ by this much: programs round in other ways.
+    pub(crate) const ROUNDING: u8 = 1;
+    /// With a curve, such as gamma, a little more.
+    pub(crate) const ROUNDING_OF_CURVE: u8 = 3;
+    /// After a curve, the brightest red of more pixels than a few is that of dots.
+    pub(crate) const FEWEST_FULL: usize = 3;
+    /// A dot raises a channel by at least this much: the framework's red raises it by 71 or more.
+    pub(crate) const LEAST_RAISE: u8 = 20;
+    /// The part of the pixels that may be neither direct light nor dot, where programs disagree on
+    /// which surface is seen at its edge, or lies in shadow.
+    pub(crate) const MOST_ASTRAY: f64 = 0.004;
+    /// From this part on, another camera is tried.
+    pub(crate) const FEW_ASTRAY: f64 = 0.0005;
+    /// The part of the background that may be lit: at edges, programs disagree on what is
+    /// background.
+    pub(crate) const MOST_LIT_BACKGROUND: f64 = 0.02;
+    /// Where dots as dark as this replace the direct light, they cannot be told from shadows.
+    pub(crate) const DARK: u8 = 16;
+    /// With this correlation with the direct light, it is the handout's view after all.
+    pub(crate) const SAME_VIEW: f64 = 0.8;
+}
+
+/// How large dots are.
+pub(crate) mod dot_size {
+    /// Up to this distance, in pixels, two pixels are looked at together.
+    pub(crate) const FARTHEST: usize = 8;
+    /// With fewer dots nothing is told of their size.
+    pub(crate) const FEWEST_RED: usize = 200;
+    /// Correlation of pixels that share nothing, from which on dots are too large. Density that
+    /// differs within a patch, and paths that leave two photons side by side, come to 0.02; half as
+    /// large a radius again to 0.07.
+    pub(crate) const TOO_MUCH: f64 = 0.05;
+}
+
+/// How photons show as dots.
+pub(crate) mod dots_of_photons {
+    /// Photons of one path that are closer together than this, in world units, show as one dot.
+    pub(crate) const SAME_PLACE: f32 = 1e-4;
+    /// Without an offset, which part of the scattered photons meets its own surface depends on
+    /// rounding: on facets that are at right angles to an axis, and on the others.
+    pub(crate) const SELF_HITS: ([f32; 3], [f32; 3]) = ([0.1, 0.25, 0.4], [0.3, 0.45, 0.6]);
+}

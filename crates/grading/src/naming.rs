@@ -52,7 +52,7 @@ impl Explanation {
         )
     }
 
-    fn is_same_misreading(&self, other: &Self) -> bool {
+    pub(crate) fn is_same_misreading(&self, other: &Self) -> bool {
         let [one, other] = [&self.hypothesis, &other.hypothesis];
         // With t and b as they are written, a title is longer.
         let is_same_pair =
@@ -61,9 +61,9 @@ impl Explanation {
     }
 }
 
-/// Whether a bounce fewer than `max_bounces`, which are allowed, can show at all.
-pub(crate) fn bounces_show(max_bounces: i32) -> bool {
-    max_bounces <= SMALL_LIMIT
+/// Whether `hypothesis` can show at all, where `max_bounces` are allowed.
+pub(crate) fn can_show(hypothesis: &Hypothesis, max_bounces: i32) -> bool {
+    hypothesis.id != BOUNCE_OFF_BY_ONE || max_bounces <= SMALL_LIMIT
 }
 
 /// How well each misreading, two at once, or another number of photons explains `evidence`, of
@@ -71,11 +71,12 @@ pub(crate) fn bounces_show(max_bounces: i32) -> bool {
 pub(crate) fn candidates<E: Evidence>(evidence: &E, joined: &Joined) -> Vec<Explanation> {
     let table = evidence.table();
     let can_be_seen = |known: &&Known<E::Signature>| {
-        let Hypothesis { id, variation, .. } = &known.hypothesis;
+        let Known { hypothesis, .. } = known;
         // Of two bounces, the first alone is left by one bounce fewer as well.
-        let has_other_name = variation.storage == Storage::FirstBounce && table.max_bounces <= 2;
-        let shows = *id != BOUNCE_OFF_BY_ONE || bounces_show(table.max_bounces);
-        evidence.may_be(&known.hypothesis) && shows && !has_other_name
+        let has_other_name =
+            hypothesis.variation.storage == Storage::FirstBounce && table.max_bounces <= 2;
+        let shows = can_show(hypothesis, table.max_bounces);
+        evidence.may_be(hypothesis) && shows && !has_other_name
     };
     let faults = table.faults().filter(can_be_seen);
     let faults = faults.map(|known| hold_against(evidence, joined, known, evidence.emitted()));

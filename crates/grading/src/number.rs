@@ -95,9 +95,12 @@ pub(super) fn other_number(list: &OfList, number: f64, p_value: f64) -> Option<O
         };
         return new(finding, by_shape, None);
     }
+    // With nine numbers to choose from, some misreading or other fits few photons: the name must
+    // hold without a number, too.
+    let of_shape = of(None).explain()?;
     SLIPS.into_iter().find_map(|slip| {
         let list = of(Some(slip.emitted(number)));
-        let explained = list.explain()?;
+        let explained = list.explain().filter(|it| it.is_same_misreading(&of_shape))?;
         new(slip.finding(number, p_value), best_trial(&list), Some(explained))
     })
 }

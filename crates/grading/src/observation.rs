@@ -3,18 +3,11 @@
 use super::crowding::crowding;
 use super::places::{Place, Places};
 use super::repeats::{Copies, Repeat, are_by_rounding, copies, repeats};
+use crate::limits::observation::{EXACT_DECIMALS, FEWEST_DECIMALS, LEAST_NUMBER};
 use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 
-/// An intensity whose inverse is less is none of so many photons, but a colour left as it is,
-/// perhaps times a constant.
-const LEAST_NUMBER: f64 = 100.0;
-/// In a list with fewer decimals than this, photons lie at the same place by rounding alone: with
-/// three, three in a hundred of the photons of ten million emitted.
-const FEWEST_DECIMALS: i32 = 4;
-/// With fewer decimals than this, a self-hit close by may be rounded to the very place it left.
-const EXACT_DECIMALS: i32 = 6;
 /// How many bounces are counted apart.
 pub const BOUNCES: usize = 4;
 

@@ -9,19 +9,7 @@ use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
 
 use super::picture::view::View;
-
-/// The seeds that people take, besides the one that the course names.
-const SEEDS: u64 = 256;
-/// Of each run the photons of so many emitted are looked for. They do not depend on how many there
-/// are in all.
-const EMITTED: u64 = 4000;
-/// So far apart is a photon that was moved a little, in each coordinate.
-const NEAR: f32 = 3e-3;
-/// Of a run's photons, this part must be there: also a tenth of a list has it.
-const FOUND: f64 = 0.08;
-/// So many standard deviations more than what chance finds of any run: of 257 runs, the best has
-/// 3.5, and more where chance finds few.
-const ABOVE_CHANCE: f64 = 7.0;
+use crate::limits::own::{ABOVE_CHANCE, EMITTED, FOUND, NEAR, SEEDS};
 
 /// Photons of this program's runs, by place.
 struct Own {

@@ -1,6 +1,8 @@
 //! How far counts are from what is expected, where photons of one path are not independent.
 
-use statrs::function::erf::erfc;
+use std::f64::consts::SQRT_2;
+
+use statrs::function::erf::{erfc, erfc_inv};
 use statrs::function::gamma::{gamma_lr, gamma_ur};
 
 /// A symmetric matrix, row by row.
@@ -103,9 +105,14 @@ pub fn chi_squared_tail(value: f64, degrees: usize) -> f64 {
     gamma_ur(degrees as f64 / 2.0, value / 2.0)
 }
 
-/// The chance that a standard normal number is farther from 0 than `z`, on either side.
-pub fn normal_tails(z: f64) -> f64 {
-    erfc(z.abs() / std::f64::consts::SQRT_2)
+/// The chance that a standard normal number is larger than `z`.
+pub fn normal_tail(z: f64) -> f64 {
+    0.5 * erfc(z / SQRT_2)
+}
+
+/// What a standard normal number is larger than with the chance `p`.
+pub fn normal_quantile(p: f64) -> f64 {
+    SQRT_2 * erfc_inv(2.0 * p)
 }
 
 /// The chance that a count of photons is farther from `mean`, on either side, than `count`. Photons
@@ -115,7 +122,7 @@ pub fn tails_of_count(count: f64, mean: f64, variance: f64) -> f64 {
     if mean <= 0.0 {
         return if count > 0.0 { 0.0 } else { 1.0 };
     }
-    let normal = normal_tails((count - mean) / variance.sqrt());
+    let normal = 2.0 * normal_tail((count - mean).abs() / variance.sqrt());
     let (shape, scaled) = (mean * mean / variance, count * mean / variance);
     let gamma = match count {
         count if count <= 0.0 => 0.0,

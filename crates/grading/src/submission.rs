@@ -17,6 +17,7 @@ use super::policy::Policy;
 use super::text::{printable, rounded};
 use super::twins::Fingerprint;
 use super::verdict::{Finding, Grade, Verdict, Weight};
+use crate::limits::submission::{FEW_STORED, FEWEST_DOTS, TOGETHER};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
@@ -25,14 +26,6 @@ use variants::section::Section;
 /// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with
 /// ten million photons and every mistake at once has fewer than this.
 pub const MOST_RECORDS: usize = 5_000_000;
-
-/// A list and a picture of one run have more than this part of their red pixels in common.
-const TOGETHER: f64 = 0.5;
-/// Of fewer red pixels, it is not said that they do not.
-const FEWEST_DOTS: f64 = 100.0;
-
-/// Of [`FEW_EMITTED`] photons, so many are stored.
-const FEW_STORED: u32 = 250;
 
 /// What one student handed in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -3,12 +3,11 @@
 use super::evidence::{Evidence, Joined};
 use super::expected::{Expected, Groups};
 use super::kept::Known;
-use super::limits::{NEEDED, SIGNIFICANCE};
-use super::naming::{Explanation, bounces_show};
-use super::statistics::{corrected, normal_tails, tails_of_count};
+use super::limits::{LEAST_OF_WAY, LEAST_POWER, POWER_KEPT, RATE_OF_WAYS, SIGNIFICANCE};
+use super::naming::{Explanation, can_show};
+use super::statistics::{corrected, normal_quantile, normal_tail, tails_of_count};
 use super::text::{difference, rounded};
 use super::verdict::{Finding, Weight};
-use variants::hypotheses::BOUNCE_OFF_BY_ONE;
 
 /// What one test found.
 pub(crate) struct Test {
@@ -155,35 +154,43 @@ fn part<E: Evidence>(
     // The three look at everything, and share one error rate.
     let count = tests.len();
     tests.iter_mut().for_each(|test| test.p_value = corrected(test.p_value, count));
-    let ways = |is_bounces: bool| {
-        let others = evidence.table().misreadings.iter();
-        let others = others
-            .filter(|it| (it.hypothesis.id == BOUNCE_OFF_BY_ONE) == is_bounces)
-            .map(|it| joined.cells.sums(&means_like(evidence, it, &cells, emitted, is_free)));
-        law.towards(&of_groups, others.collect::<Vec<_>>().into_iter()).collect::<Vec<_>>()
-    };
-    let way = |ways: Vec<(f64, f64)>, what: &str| {
-        let farthest = ways.iter().map(|(deviations, _)| *deviations).fold(0.0, f64::max);
-        // As many tests as there are ways, of one side each.
-        let p_value = corrected(0.5 * normal_tails(farthest), ways.len());
-        (p_value, format!("{unit} lean {farthest:.1} standard deviations towards {what}"))
-    };
-    // The ways to misreadings have an error rate of their own, shared among those that these tests
-    // are needed for: what is close by cannot be seen, and the others see what is far away.
-    let needed: Vec<_> = ways(false).into_iter().filter(|way| NEEDED.contains(&way.1)).collect();
     // Whose way it is says little: the one that explains all is named for the whole.
-    let (p_value, found) = way(needed, "one of them");
-    let check = "known misreadings";
-    let expected = "no tendency towards a known misreading";
-    tests.push(Test { check, expected, p_value, found });
-    if bounces_show(evidence.table().max_bounces) {
-        // It shows so little that it needs a test of its own.
-        let (p_value, found) = way(ways(true), "one bounce fewer");
-        let check = "number of bounces";
-        let expected = "photons of as many bounces as are allowed";
-        tests.push(Test { check, expected, p_value, found });
-    }
+    let shows = |it: &&Known<E::Signature>| can_show(&it.hypothesis, evidence.table().max_bounces);
+    let others = evidence.table().misreadings.iter().filter(shows);
+    let others =
+        others.map(|it| means_like(evidence, it, &cells, emitted, is_free)).collect::<Vec<_>>();
+    // Of all cells, as few as their photons may be: a sum over them is close to normal.
+    let law = cells.law(is_free);
+    let ways = law.towards(evidence.of_cells(), others.into_iter()).collect();
+    let (farthest, p_value) = strangest_way(ways);
+    tests.push(Test {
+        check: "known misreadings",
+        expected: "no tendency towards a known misreading",
+        p_value,
+        found: format!("{unit} lean {farthest:.1} standard deviations towards one of them"),
+    });
     tests
+}
+
+/// Of `ways` to misreadings, each with how many deviations the counts have gone on it and how many
+/// it is long, the strangest: its deviations, and its chance, in units of [`SIGNIFICANCE`] of the
+/// error rate that it has. They share [`RATE_OF_WAYS`], each in proportion to the rate with which
+/// its test finds nearly as many lists as the best one for it alone: for what plainly shows, next
+/// to nothing.
+fn strangest_way(ways: Vec<(f64, f64)>) -> (f64, f64) {
+    let best_line = normal_quantile(SIGNIFICANCE);
+    let need = |length: f64| {
+        let found_by_best = normal_tail(best_line - length);
+        let line = length + normal_quantile(POWER_KEPT * found_by_best);
+        if found_by_best < LEAST_POWER { 0.0 } else { normal_tail(line).max(LEAST_OF_WAY) }
+    };
+    let needs: Vec<f64> = ways.iter().map(|(_, length)| need(*length)).collect();
+    let unit = RATE_OF_WAYS / needs.iter().sum::<f64>();
+    let tested = ways.iter().zip(needs).filter(|(_, need)| *need > 0.0);
+    let p_values = tested.map(|((deviations, _), need)| {
+        (*deviations, SIGNIFICANCE * normal_tail(*deviations) / (unit * need))
+    });
+    p_values.fold((0.0, 1.0), |a, b| if b.1 < a.1 { b } else { a })
 }
 
 /// The means by cell under `other` for `emitted` photons, or, if their number is free, for as many

@@ -11,7 +11,7 @@ use grading::observation::{CountsByPlace, Observation, observe};
 use grading::places::{Place, Places};
 use grading::policy::Policy;
 use grading::signature::{Signature, Signatures, classes, measure};
-use grading::statistics::{corrected, normal_tails};
+use grading::statistics::{corrected, normal_tail};
 use grading::verdict::{Finding, Verdict, Weight};
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
@@ -286,7 +286,7 @@ fn of_an_unknown_size_the_shape_alone_counts() {
 
 #[test]
 fn corrections_and_tails_are_the_textbooks() {
-    assert!((normal_tails(1.959_964) - 0.05).abs() < 1e-6);
+    assert!((normal_tail(1.959_964) - 0.025).abs() < 1e-6);
     assert!((corrected(0.05, 2) - 0.0975).abs() < 1e-12);
     assert!((corrected(1e-20, 10) / 1e-19 - 1.0).abs() < 1e-9);
     assert!((corrected(1.0, 3) - 1.0).abs() < 1e-12);
@@ -495,7 +495,7 @@ fn a_bounce_too_few_is_seen_in_the_number_of_photons() {
     assert_eq!(name(&short), Some("bounce-off-by-one"));
     let of_bounces = |judgement: &Judgement| {
         let mut tests = judgement.findings.iter();
-        tests.find(|test| test.check == "number of bounces").expect("it is tested").passed
+        tests.find(|test| test.check == "known misreadings").expect("it is tested").passed
     };
     assert!(!of_bounces(&short));
     let right = judged(0, emitted);

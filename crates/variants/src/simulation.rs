@@ -111,7 +111,8 @@ impl Simulation {
         self.trace_one_by_one(photons, |_| next)
     }
 
-    fn trace_one_by_one<R: FnMut() -> f32>(
+    /// As [`Self::trace`], but with the numbers, each in [0, 1), that `generator` has for a photon.
+    pub fn trace_one_by_one<R: FnMut() -> f32>(
         &self,
         photons: Range<u64>,
         generator: impl Fn(u64) -> R,

@@ -51,15 +51,8 @@ fn every_misreading_stores_something_else_than_the_reference() {
 fn the_plain_variation_is_the_reference_on_the_slow_path_too() {
     let traced = |seed: u64| {
         let simulation = Simulation::new(Variation::default(), seed, EMITTED, 1000);
-        let numbered = |photon: u64| photon_mapping::random::photon_random(seed, photon);
-        let mut all = Vec::new();
-        for photon in 0..2000 {
-            let mut rand = numbered(photon);
-            all.extend(
-                simulation.trace_with(photon..photon + 1, std::iter::from_fn(|| Some(rand()))),
-            );
-        }
-        all
+        simulation
+            .trace_one_by_one(0..2000, |photon| photon_mapping::random::photon_random(seed, photon))
     };
     let fast = Simulation::new(Variation::default(), 3, EMITTED, 1000).trace(0..2000);
     assert_eq!(traced(3), fast);

@@ -7,17 +7,9 @@
 
 use super::reading::WANTED;
 use super::view::{PIXELS, View};
+use crate::limits::dot_size::{FARTHEST, FEWEST_RED, TOO_MUCH};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
-
-/// Up to this distance, in pixels, two pixels are looked at together.
-const FARTHEST: usize = 8;
-/// With fewer dots nothing is told of their size.
-const FEWEST_RED: usize = 200;
-/// Correlation of pixels that share nothing, from which on dots are too large. Density that differs
-/// within a patch, and paths that leave two photons side by side, come to 0.02; half as large a
-/// radius again to 0.07.
-const TOO_MUCH: f64 = 0.05;
 
 /// The dots of a picture, with how often each patch of the view is red.
 #[derive(Clone, Debug)]

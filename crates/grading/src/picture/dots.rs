@@ -5,27 +5,11 @@ use image::RgbImage;
 
 use super::reading::WANTED;
 use super::view::{PIXELS, View};
+use crate::limits::dots::{
+    DARK, FEW_ASTRAY, FEWEST_FULL, LEAST_RAISE, MOST_ASTRAY, MOST_LIT_BACKGROUND, ROUNDING,
+    ROUNDING_OF_CURVE, SAME_VIEW,
+};
 use crate::verdict::Finding;
-
-/// A channel of the direct light may differ by this much: programs round in other ways.
-const ROUNDING: u8 = 1;
-/// With a curve, such as gamma, a little more.
-const ROUNDING_OF_CURVE: u8 = 3;
-/// After a curve, the brightest red of more pixels than a few is that of dots.
-const FEWEST_FULL: usize = 3;
-/// A dot raises a channel by at least this much: the framework's red raises it by 71 or more.
-const LEAST_RAISE: u8 = 20;
-/// The part of the pixels that may be neither direct light nor dot, where programs disagree on
-/// which surface is seen at its edge, or lies in shadow.
-const MOST_ASTRAY: f64 = 0.004;
-/// From this part on, another camera is tried.
-const FEW_ASTRAY: f64 = 0.0005;
-/// The part of the background that may be lit: at edges, programs disagree on what is background.
-const MOST_LIT_BACKGROUND: f64 = 0.02;
-/// Where dots as dark as this replace the direct light, they cannot be told from shadows.
-const DARK: u8 = 16;
-/// With this correlation with the direct light, it is the handout's view after all.
-const SAME_VIEW: f64 = 0.8;
 
 /// The dots of a picture.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,6 @@ pub mod judge;
 mod off_surface;
 pub mod reading;
 pub mod signature;
-pub mod trials;
 pub mod view;
 mod words;
 

@@ -5,12 +5,10 @@ use super::dotted::OfPicture;
 use super::expected::means;
 use crate::evidence::Evidence;
 use crate::expected::bisect;
+use crate::limits::expected::SIZES;
 use crate::limits::{FEW_EMITTED, FEW_RED, FEWEST_GROUPS, FEWEST_RED, SIGNIFICANCE};
 use crate::trial::{Trial, attempt};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
-
-/// The numbers of photons between which it is sought: with fewer or more no picture can be judged.
-const SIZES: [f64; 2] = [10.0, 1e8];
 
 impl OfPicture<'_> {
     /// The fair reading, of positions that are off their surfaces, and of enough photons, under

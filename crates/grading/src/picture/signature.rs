@@ -6,6 +6,7 @@ use super::view::View;
 use crate::kept::{
     Effort, Hypotheses, KeptSignatures, Known, SignatureTable, Sums, add, add_matrix, sum,
 };
+use crate::limits::dots_of_photons::{SAME_PLACE, SELF_HITS};
 use crate::places::Places;
 use crate::short::MANY_BOUNCES;
 use crate::signature::Signatures;
@@ -15,12 +16,6 @@ use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::{Hypothesis, fair_readings, misreadings, no_offset};
 use variants::pairs::{PAIR, can_be_of_two, pairs};
 use variants::variation::{FACETS, Variation};
-
-/// Photons of one path that are closer together than this, in world units, show as one dot.
-const SAME_PLACE: f32 = 1e-4;
-/// Without an offset, which part of the scattered photons meets its own surface depends on
-/// rounding: on facets that are at right angles to an axis, and on the others.
-const SELF_HITS: ([f32; 3], [f32; 3]) = ([0.1, 0.25, 0.4], [0.3, 0.45, 0.6]);
 
 /// With how many photons: then a signature is known better than the leeway that a density has.
 const EFFORT: Effort = Effort {

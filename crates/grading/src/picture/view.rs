@@ -7,17 +7,13 @@ use glam::Vec3;
 use image::RgbImage;
 use rayon::prelude::*;
 
-use crate::places::{Place, Places};
+use crate::places::{MARGIN, Place, Places};
 use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_renderer, create_scene};
 use photon_mapping::rendering::image_writer::to_bytes;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::camera::PerspectiveCamera;
 use photon_mapping::scene::ray::IntersectionState;
 
-/// Pixels closer than this to an edge of their facet, or to another facet, in world units, are not
-/// looked at: the cube of a dot reaches over edges, and the photons there may belong to either
-/// facet.
-const MARGIN: f64 = 0.012;
 /// Patches are the pixels of one facet in one square of the picture of so many pixels a side: small
 /// enough for the density of photons to be the same all over it.
 const PATCH: usize = 16;
@@ -286,6 +282,7 @@ impl View {
 fn cell_inside(places: &Places, facet: usize, point: Vec3) -> Option<usize> {
     let point = point.as_dvec3();
     let corners = places.facets[facet].corners;
+    // The cube of a dot reaches over edges, and the photons there may belong to either facet.
     let is_near_edge = (0..4).any(|corner| {
         let (a, b) = (corners[corner], corners[(corner + 1) % 4]);
         (point - a).cross(b - a).length() < MARGIN * (b - a).length()

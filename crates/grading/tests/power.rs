@@ -1,0 +1,86 @@
+//! What is hard to see is found nearly as often as can be, and few photons get no wrong name.
+
+#[path = "../examples/common/limit.rs"]
+mod limit;
+
+use std::sync::LazyLock;
+
+use glam::Vec3;
+use grading::judge_list::{Expectations, Judgement, judge};
+use grading::observation::observe;
+use grading::places::Places;
+use grading::signature::{Known, Signature, Signatures};
+use limit::best_test;
+use photon_list::reader::PhotonList;
+use photon_list::record::{ABSENT, Columns};
+use photon_mapping::assignment8::create_scene;
+use photon_mapping::photon_list::PhotonRecord;
+use rayon::prelude::*;
+use variants::variation::{Simulation, Variation};
+
+/// Far from the seeds of the signatures.
+const FIRST_SEED: u64 = 9_000_000;
+
+static EXPECTATIONS: LazyLock<Expectations> =
+    LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
+
+fn ways(id: &str) -> Vec<&'static Known<Signature>> {
+    let all = EXPECTATIONS.signatures.misreadings.iter();
+    all.filter(|known| known.hypothesis.id == id).collect()
+}
+
+/// What is said of photons under `variation`, by positions and their number, or by the columns too.
+fn judged(variation: Variation, seed: u64, emitted: u64, has_columns: bool) -> Judgement {
+    let mut records = Simulation::new(variation, seed, emitted, 1000).trace(0..emitted);
+    for record in &mut records {
+        *record = match has_columns {
+            true => PhotonRecord { intensity: Vec3::splat(1.0 / emitted as f32), ..*record },
+            false => PhotonRecord { position: record.position, ..ABSENT },
+        };
+    }
+    let [intensity, to_light, bounce] = [has_columns; 3];
+    let columns = Columns { intensity, to_light, bounce, ..Columns::default() };
+    let light = create_scene().lights()[0].position.as_dvec3();
+    let observation = observe(&PhotonList { columns, records }, &EXPECTATIONS.places, light);
+    let by_user = (!has_columns).then_some(emitted as f64);
+    let emitted = by_user.or(observation.emitted_by_intensity);
+    judge(&observation, emitted, by_user.is_some(), &EXPECTATIONS)
+}
+
+#[test]
+fn what_hardly_shows_is_found_nearly_as_often_as_by_the_best_test() {
+    const LISTS: u64 = 24;
+    const EMITTED: u64 = 100_000;
+    let ways = ways("numbers-again");
+    let Expectations { places, signatures, .. } = &*EXPECTATIONS;
+    let none = vec![0.0; places.cells];
+    let found_by_best = |way: &&Known<Signature>| {
+        let counts: Vec<f64> =
+            way.signature.cells.iter().map(|mean| mean * EMITTED as f64).collect();
+        best_test(&counts, Some(EMITTED as f64), signatures.fair.iter(), |fair, size| {
+            fair.signature.of_cells(&signatures.correlation, &none, size)
+        })
+    };
+    let best = ways.iter().map(found_by_best).sum::<f64>() / ways.len() as f64;
+    assert!((0.2..0.95).contains(&best), "{best}: it is neither hidden nor plain");
+    let is_found = |seed: &u64| {
+        let way = ways[*seed as usize % ways.len()];
+        let judgement = judged(way.hypothesis.variation, FIRST_SEED + seed, EMITTED, false);
+        judgement.findings.iter().any(|finding| finding.is_fault())
+    };
+    let found = (0..LISTS).into_par_iter().filter(is_found).count() as f64;
+    let expected = 0.95 * best * LISTS as f64;
+    // Of so many lists, chance takes as many as this.
+    let by_chance = (expected * (1.0 - best)).sqrt();
+    assert!(found >= expected - by_chance, "{found} of {expected}");
+}
+
+#[test]
+fn a_number_made_to_fit_gives_few_photons_no_wrong_name() {
+    let way = ways("octant-directions")[0];
+    for seed in 0..8 {
+        let judgement = judged(way.hypothesis.variation, FIRST_SEED + seed, 10_000, true);
+        let name = judgement.explanation.map(|explanation| explanation.hypothesis.id);
+        assert!([None, Some("octant-directions")].contains(&name), "{seed}: {name:?}");
+    }
+}
