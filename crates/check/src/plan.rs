@@ -44,9 +44,9 @@ pub enum PlanStep {
     StoreLater(usize),
     /// A ray that meets nothing.
     StoreMiss,
-    /// A closed white cube, with this many remaining bounces, and two elements in the path.
+    /// Closed white cubes, with this many remaining bounces, and two elements in the path.
     Remaining(i32),
-    /// A closed white cube, from the light on.
+    /// Closed white cubes, from the light on.
     GrowPath,
     /// A floor that absorbs everything.
     Black,
@@ -54,7 +54,7 @@ pub enum PlanStep {
     White,
     /// A floor with one of the [`COLOURS`].
     Colour(usize),
-    /// A closed grey cube, from the light on.
+    /// Closed grey cubes, from the light on.
     GreyCube,
     /// A grey floor; the first number drawn is 0.5 and this much more, in units of 2^-24.
     Threshold(i32),
@@ -175,7 +175,7 @@ pub fn rays(step: PlanStep) -> Vec<[Vec3; 2]> {
         .collect()
 }
 
-/// The point around which walls and cubes lie.
+/// The middle of walls and cubes.
 const CENTRE: Vec3 = Vec3::new(0.137, -0.211, 0.423);
 
 fn trace(step: PlanStep, scene: usize) -> String {
@@ -218,8 +218,8 @@ fn add_scene(step: PlanStep, file: &mut String) {
         PlanStep::StoreFirst | PlanStep::StoreLater(_) | PlanStep::Black => {
             wall(file, Vec3::Z, Vec3::ZERO)
         }
-        PlanStep::Remaining(_) | PlanStep::GrowPath => cube(file, Vec3::ONE),
-        PlanStep::GreyCube => cube(file, Vec3::splat(0.5)),
+        PlanStep::Remaining(_) | PlanStep::GrowPath => cubes(file, Vec3::ONE),
+        PlanStep::GreyCube => cubes(file, Vec3::splat(0.5)),
         PlanStep::White => wall(file, Vec3::Z, Vec3::ONE),
         PlanStep::Colour(index) => wall(file, Vec3::Z, COLOURS[index]),
         PlanStep::Threshold(_) | PlanStep::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
@@ -250,11 +250,14 @@ fn wall(file: &mut String, normal: Vec3, diffuse: Vec3) {
     square(file, CENTRE, normal, 2.0);
 }
 
-/// A closed cube that photons see from within.
-fn cube(file: &mut String, diffuse: Vec3) {
-    line(file, &format!("object cube{}", vector_text(diffuse)));
-    for normal in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]) {
-        square(file, CENTRE - normal, normal, 1.0);
+/// A small cube within a closed one; photons fly between them. Those that scatter below the small
+/// cube's surface fly within it, and are not lost either.
+fn cubes(file: &mut String, diffuse: Vec3) {
+    line(file, &format!("object cubes{}", vector_text(diffuse)));
+    for (half, outward) in [(0.5, 1.0), (1.0, -1.0)] {
+        for normal in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]) {
+            square(file, CENTRE + half * outward * normal, normal, half);
+        }
     }
 }
 

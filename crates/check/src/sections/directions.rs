@@ -14,6 +14,8 @@ pub const FEWEST: usize = 100;
 /// A scattered ray and the hit that it leaves.
 #[derive(Clone, Copy, Debug)]
 pub struct Scattered {
+    /// The number of the call.
+    pub call: u64,
     /// The point hit.
     pub hit: Vec3,
     /// The ray's start.
@@ -69,6 +71,8 @@ pub struct Directions {
     pub law: Option<&'static AngleLaw>,
     /// The square of the sine of the floor's directions to the normal, in tangent space.
     pub sines: Vec<f64>,
+    /// The floor's directions around the normal, in tangent space, in turns.
+    pub around: Vec<f64>,
     /// Whether the floor's directions are even around the normal.
     pub is_even_around: bool,
     /// Whether the floor's directions all lie on one side of it.
@@ -78,8 +82,9 @@ pub struct Directions {
 impl Directions {
     /// What was seen.
     pub fn of(observed: &Observed) -> Self {
-        let scattered =
-            |step: PlanStep| observed.calls(step).iter().filter_map(of_call).collect::<Vec<_>>();
+        let scattered = |step: PlanStep| {
+            (0..).zip(observed.calls(step)).filter_map(of_call).collect::<Vec<_>>()
+        };
         let floor = scattered(PlanStep::Floor);
         let walls = plan::wall_normals();
         let walls = walls.into_iter().map(|n| (n, scattered(PlanStep::Wall(n)))).collect();
@@ -120,6 +125,7 @@ impl Directions {
             seen.into_iter().nth(found.map_or(0, |(number, _)| number)).expect("frames are tried");
         self.sines = sines;
         self.is_even_around = is_uniform(&around);
+        self.around = around;
         self.is_one_sided = above[0] > 0.999 || above[0] < 0.001;
     }
 
@@ -160,11 +166,12 @@ impl Directions {
 }
 
 /// The first scattered ray of a call.
-fn of_call(call: &Call) -> Option<Scattered> {
+fn of_call((number, call): (u64, &Call)) -> Option<Scattered> {
     let mut of_path = call.traces.iter().filter(|trace| trace.has_state);
     let first: &Trace = of_path.next().filter(|trace| trace.met)?;
     let second: &Trace = of_path.next()?;
     Some(Scattered {
+        call: number,
         hit: first.hit(),
         from: second.from,
         direction: second.direction,

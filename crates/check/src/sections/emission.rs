@@ -3,7 +3,7 @@
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 
-use super::SectionVerdict;
+use super::{SectionVerdict, turns};
 use crate::events::Call;
 use crate::plan::{LIGHT, PlanStep, SECOND_TRY, first_try};
 use crate::run::Observed;
@@ -94,8 +94,9 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     let steps = [PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
     let function = "GenerateRandomPhotonRay";
     let log = observed.step(PlanStep::Emit);
-    let rays: Vec<_> =
-        log.iter().flat_map(|log| &log.calls).filter_map(|call| call.emitted).collect();
+    let calls = log.map_or([].as_slice(), |log| log.calls.as_slice());
+    // Only the last call may have emitted nothing, so that a ray's place is its call's number.
+    let rays: Vec<_> = calls.iter().map_while(|call| call.emitted).collect();
     if rays.is_empty() {
         if steps.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("GenerateRandomPhotonRay was not called");
@@ -174,6 +175,12 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut SectionVerdict) -> bool {
 fn judge_law(directions: &[Vec3], verdict: &mut SectionVerdict) {
     let found = features(directions.iter().map(|direction| direction.normalize()));
     if fits(&found, ball) {
+        let around =
+            directions.iter().map(|v| f64::from(libm::atan2f(v.y, v.x)) / std::f64::consts::TAU);
+        let turns = turns::turns(&(0..).zip(around).collect::<Vec<_>>());
+        if let Some((name, found)) = turns.and_then(|turns| turns::fault(turns, "phi")) {
+            verdict.fault(Some(name), found, "Use the handout's loop over x, y and z.");
+        }
         return;
     }
     if let Some(law) = LAWS.iter().find(|law| fits(&found, law.draw)) {

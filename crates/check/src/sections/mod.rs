@@ -6,6 +6,7 @@ mod sampling;
 mod scattering;
 mod storage;
 mod transformation;
+mod turns;
 
 use serde::Serialize;
 use variants::section::Section;
@@ -136,15 +137,15 @@ fn where_of(step: PlanStep) -> String {
         PlanStep::StoreLater(path) => format!("one black wall, a path of length {path}"),
         PlanStep::StoreMiss => "a ray that meets nothing".to_owned(),
         PlanStep::Remaining(remaining) => {
-            format!("a closed white cube, remainingBounces = {remaining}")
+            format!("closed white cubes, remainingBounces = {remaining}")
         }
-        PlanStep::GrowPath => "a closed white cube, a path of length 1".to_owned(),
+        PlanStep::GrowPath => "closed white cubes, a path of length 1".to_owned(),
         PlanStep::Black => "a wall with P_r = 0".to_owned(),
         PlanStep::White => "a wall with P_r = 1".to_owned(),
         PlanStep::Colour(index) => {
             format!("a colored wall with P_r = {}", COLOURS[index].max_element())
         }
-        PlanStep::GreyCube => "a closed cube with P_r = 0.5".to_owned(),
+        PlanStep::GreyCube => "closed cubes with P_r = 0.5".to_owned(),
         PlanStep::Threshold(_) => {
             "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned()
         }

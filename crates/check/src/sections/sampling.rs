@@ -1,7 +1,7 @@
 //! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
 
-use super::SectionVerdict;
-use super::directions::{Directions, FEWEST, FrameForm, Scattered};
+use super::directions::{Directions, FEWEST, Scattered};
+use super::{SectionVerdict, turns};
 use crate::plan::PlanStep;
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform, mean};
@@ -24,8 +24,10 @@ impl AngleLaw {
     }
 }
 
+const HEIGHT: &str = "Equation (6) has z = sqrt(1 - u1).";
+
 /// The laws of known misreadings.
-pub static LAWS: [AngleLaw; 7] = [
+pub static LAWS: [AngleLaw; 12] = [
     AngleLaw {
         name: "uniform-hemisphere",
         what: "directions are uniform over the hemisphere, not in proportion to the cosine",
@@ -40,10 +42,40 @@ pub static LAWS: [AngleLaw; 7] = [
         squared_sine: |u| u * u / (u * u + 1.0 - u),
     },
     AngleLaw {
+        name: "no-square-root",
+        what: "r is u1, not its square root, and z the root of 1 - r^2",
+        advice: "Equation (2) has r = sqrt(u1).",
+        squared_sine: |u| u * u,
+    },
+    AngleLaw {
         name: "no-square-root-of-height",
         what: "z is 1 - u1, not its square root",
-        advice: "Equation (6) has z = sqrt(1 - u1).",
+        advice: HEIGHT,
         squared_sine: |u| u / (u + (1.0 - u) * (1.0 - u)),
+    },
+    AngleLaw {
+        name: "other-height",
+        what: "z is the root of 1 - r, where r is the root of u1",
+        advice: HEIGHT,
+        squared_sine: |u| u / (u + 1.0 - u.sqrt()),
+    },
+    AngleLaw {
+        name: "other-height",
+        what: "z is the root of 1 - u1^2",
+        advice: HEIGHT,
+        squared_sine: |u| u / (u + 1.0 - u * u),
+    },
+    AngleLaw {
+        name: "other-height",
+        what: "z is 1 - r, where r is the root of u1",
+        advice: HEIGHT,
+        squared_sine: |u| u / (u + (1.0 - u.sqrt()).powi(2)),
+    },
+    AngleLaw {
+        name: "other-height",
+        what: "z is always 1",
+        advice: HEIGHT,
+        squared_sine: |u| u / (u + 1.0),
     },
     AngleLaw {
         name: "no-roots",
@@ -71,6 +103,7 @@ pub static LAWS: [AngleLaw; 7] = [
     },
 ];
 
+const AZIMUTH: &str = "Equation (3): theta = 2 pi u2 in radians, and u2 is in [0, 1).";
 const NEW_NUMBERS: &str = "Draw two random numbers in [0, 1), u1 and u2, for every direction.";
 
 pub(super) fn judge(
@@ -106,6 +139,7 @@ pub(super) fn judge(
             law_fault(law, directions, &mut verdict);
         }
         judge_pairs(directions, &mut verdict);
+        judge_turns(directions, &mut verdict);
     }
     verdict.finish(observed, "TracePhoton", &[PlanStep::Floor], told)
 }
@@ -154,8 +188,9 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
         let advice = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).";
         verdict.fault(None, found, advice);
     }
+    let has_fault_around = judge_turns(directions, verdict);
     // Where neither angle follows, one sentence is enough.
-    if !directions.is_even_around && (law.is_some() || is_uniform(sines)) {
+    if !has_fault_around && !directions.is_even_around && (law.is_some() || is_uniform(sines)) {
         let (x, y): (Vec<_>, Vec<_>) =
             rays.iter().map(|ray| (f64::from(ray.direction.x), f64::from(ray.direction.y))).unzip();
         let found = format!(
@@ -164,9 +199,21 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
             mean(&x),
             mean(&y)
         );
-        let advice = "Equation (3): theta = 2 pi u2, and u2 is in [0, 1).";
-        verdict.fault(Some("not-even-around"), found, advice);
+        verdict.fault(Some("not-even-around"), found, AZIMUTH);
     }
+}
+
+/// How theta follows from its random number, if that is known; whether there is a fault.
+fn judge_turns(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
+    let calls = directions.floor.iter().map(|ray| ray.call);
+    let angles: Vec<_> = calls.zip(directions.around.iter().copied()).collect();
+    let Some(turns) = turns::turns(&angles) else { return false };
+    if let Some((name, found)) = turns::fault(turns, "theta") {
+        verdict.fault(Some(name), found, AZIMUTH);
+        return true;
+    }
+    verdict.remarks.extend(turns::remark(turns, "theta"));
+    false
 }
 
 fn law_fault(law: &AngleLaw, directions: &Directions, verdict: &mut SectionVerdict) {
@@ -184,20 +231,11 @@ fn mean_cosine(directions: &Directions) -> f64 {
 
 /// Whether the angle to the normal and that around it are independent.
 fn judge_pairs(directions: &Directions, verdict: &mut SectionVerdict) {
-    let angle = |ray: &Scattered| {
-        let d = ray.direction;
-        // Around whichever axis the floor's directions lie.
-        match directions.frame_of_floor {
-            Some(FrameForm::OtherOrder) => None,
-            _ => Some(f64::from(libm::atan2f(d.y, d.x))),
-        }
-    };
-    let (mut near, mut far) = (Vec::new(), Vec::new());
-    for (ray, sine) in directions.floor.iter().zip(&directions.sines) {
-        if let Some(angle) = angle(ray) {
-            if *sine < 0.5 { near.push(angle) } else { far.push(angle) }
-        }
-    }
+    let mut of_all: Vec<_> = directions.sines.iter().zip(&directions.around).collect();
+    of_all.sort_unstable_by(|a, b| a.0.total_cmp(b.0));
+    let (near, far) = of_all.split_at(of_all.len() / 2);
+    let [near, far] =
+        [near, far].map(|half| half.iter().map(|(_, angle)| **angle).collect::<Vec<_>>());
     if !are_alike(&near, &far) {
         let found = "the angle around the normal depends on the angle to it".to_owned();
         verdict.fault(Some("one-number"), found, NEW_NUMBERS);

@@ -242,8 +242,8 @@ fn judge_later(calls: &[Call], verdict: &mut SectionVerdict) {
         let Some(second) = call.traces.iter().filter(|trace| trace.has_state).nth(1) else {
             continue;
         };
-        let axes = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
-        let normal = axes[usize::from(first.triangle) / 2 % 6];
+        // Two triangles a side, two sides an axis, three axes a cube.
+        let normal = Vec3::AXES[usize::from(first.triangle) / 4 % 3];
         let cosine = second.direction.normalize().dot(normal);
         let part = &mut parts[usize::from(cosine * cosine > 0.5)];
         part[0] += 1;

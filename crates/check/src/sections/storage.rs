@@ -148,7 +148,7 @@ fn repeats(call: &Call) -> bool {
 fn judge_growth(calls: &[Call], verdict: &mut SectionVerdict) {
     let ends_at_second = |call: &Call| call.hits().count() == 2 && call.rays() == 2;
     if !calls.is_empty() && calls.iter().all(ends_at_second) {
-        let found = "all paths end at the second hit in a closed white cube where remainingBounces \
+        let found = "all paths end at the second hit in closed white cubes where remainingBounces \
                      starts with 5; expected 6 hits";
         verdict.fault(Some("first-bounce-only"), found.to_owned(), IN_EVERY_CALL);
     }
@@ -174,7 +174,7 @@ fn judge_growth(calls: &[Call], verdict: &mut SectionVerdict) {
     }
     if stored == 0 {
         let found = format!(
-            "no photon is stored that bounces in a closed cube, in {hits} later hits: the path \
+            "no photon is stored that bounces in closed cubes, in {hits} later hits: the path \
              does not grow"
         );
         let advice = "Add an element to 'path' before TracePhoton calls itself.";
@@ -264,7 +264,7 @@ fn judge_limit<'a>(
     let is_told = verdict.faults.iter().any(|fault| fault.name == Some("first-bounce-only"));
     if all_same && !missed && !is_told && (2..1001).contains(&count) {
         let found = format!(
-            "all paths end after {count} hits in a closed white cube where remainingBounces starts \
+            "all paths end after {count} hits in closed white cubes where remainingBounces starts \
              with 1000; expected 1001"
         );
         let (name, advice) = match count {

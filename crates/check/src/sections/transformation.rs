@@ -59,8 +59,8 @@ fn judge_frames(directions: &Directions, verdict: &mut SectionVerdict) {
         if not_finite > 0 {
             if sampling_is_finite {
                 let found = format!(
-                    "{not_finite} of {total} directions are not finite numbers where the normal is \
-                     {normal}"
+                    "{not_finite} of {total} directions are not finite numbers where the normal is {}",
+                    short(*normal)
                 );
                 let (name, advice) = if is_along_x {
                     (Some("nan-frame"), NAN_WALL)
@@ -79,8 +79,9 @@ fn judge_frames(directions: &Directions, verdict: &mut SectionVerdict) {
         let all_but_few = along as f64 > 0.95 * total as f64;
         if sampling_spreads && all_but_few {
             let found = format!(
-                "{along} of {total} photons leave along the normal where it is {normal}: t and b \
-                 have no length"
+                "{along} of {total} photons leave along the normal where it is {}: t and b have no \
+                 length",
+                short(*normal)
             );
             let name = is_along_x.then_some("no-absolute-value");
             let advice = if normal.x < -0.999 { WALL } else { PARALLEL };
