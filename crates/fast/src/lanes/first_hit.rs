@@ -102,10 +102,13 @@ impl NullaryFnOnce for Meet<'_> {
     fn call(self) {
         let Self { outlook, list, surfaces, queue, hits } = self;
         let (axis, candidates) = outlook.candidates(list);
+        let (mut x, mut y, mut z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for (lane, photon) in queue.iter().enumerate() {
+            [x[lane], y[lane], z[lane]] = photon.point;
+        }
         let [dx, dy, dz] = &mut hits.direction;
         for lane in 0..LANES {
-            let [x, y, z] = queue[lane].point;
-            let direction = Vec3::new(x, y, z).normalize();
+            let direction = Vec3::new(x[lane], y[lane], z[lane]).normalize();
             (dx[lane], dy[lane], dz[lane]) = (direction.x, direction.y, direction.z);
         }
         let [dx, dy, dz] = &hits.direction;

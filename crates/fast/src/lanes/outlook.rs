@@ -38,8 +38,10 @@ const EDGE: usize = 32;
 const CELLS: usize = 6 * EDGE * EDGE;
 /// The cell of a photon whose direction is not known yet.
 pub const UNKNOWN: u32 = CELLS as u32;
-/// [`CELLS`] and [`UNKNOWN`], with room up to the next power of two.
-const ROUGH_CELLS: usize = (CELLS + 1).next_power_of_two();
+/// The cell of a photon that is not there.
+pub const NOWHERE: u32 = UNKNOWN + 1;
+/// [`CELLS`], [`UNKNOWN`] and [`NOWHERE`], with room up to the next power of two.
+const ROUGH_CELLS: usize = (CELLS + 2).next_power_of_two();
 /// How far a cell reaches over its ends, 2^-16: four times what [`step`] moves a shear by shrinking
 /// the grid and rounding, and [`rough_cell`] by five roundings more.
 const MARGIN: f32 = 1.0 / 65_536.0;
@@ -193,8 +195,11 @@ impl Outlook {
         let greatest = |places: &mut dyn Iterator<Item = f32>| places.fold(0.0, f32::max);
         let of_scene = greatest(&mut reflection.iter().copied());
         let of_cell = |cell: usize| {
-            if cell >= CELLS {
+            if cell == UNKNOWN as usize {
                 return of_scene;
+            }
+            if cell > CELLS {
+                return 0.0;
             }
             let of_cell = &triangles[lists[usize::from(list_of_cell[cell])].triangles.clone()];
             greatest(&mut of_cell.iter().map(|triangle| reflection[*triangle as usize]))

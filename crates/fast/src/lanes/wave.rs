@@ -11,9 +11,9 @@ use glam::Vec3;
 use super::chacha::number;
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
-use super::emission::{self, Emit, LaneEmission, coordinate, is_in_sphere};
+use super::emission::{self, DRAWN_IN_VAIN, Emit, EmitAgain, LaneEmission, emit_one};
 use super::first_hit::{self, EmittedPhoton, FirstHits, Meet, Queue};
-use super::outlook::{Outlook, rough_cell};
+use super::outlook::{NOWHERE, Outlook, UNKNOWN, rough_cell};
 use super::scattering::Scatter;
 use super::{LaneTracer, Stage};
 use photon_mapping::photon_list::PhotonRecord;
@@ -61,8 +61,6 @@ pub(super) struct Wave<'a, D> {
     /// How many are in each queue.
     waiting: Vec<u8>,
     first_hits: FirstHits,
-    /// Those for which the first block was not long enough.
-    again: Vec<EmittedPhoton>,
     leaving: Leaving,
     landed: Vec<Arrival>,
     numbers: Vec<Draws>,
@@ -88,7 +86,6 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
             queues: vec![Queue::default(); outlook.lists() + 1],
             waiting: vec![0; outlook.lists() + 1],
             first_hits: FirstHits::default(),
-            again: Vec::new(),
             leaving: Leaving {
                 count: 0,
                 words: [[0; closest_hit::GROUP]; 2],
@@ -121,9 +118,8 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
                 self.play_roulette();
             }
         }
-        self.forward(self.outlook.lists());
-        self.draw_again();
-        for list in 0..self.queues.len() {
+        // First those that wait for numbers, since they go on to other queues.
+        for list in (0..self.queues.len()).rev() {
             self.forward(list);
         }
         while !self.landed.is_empty() || self.leaving.count > 0 {
@@ -135,29 +131,66 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
         records
     }
 
-    /// Emits the `count` photons from number `first` on. Those go on that may hit something and be
-    /// reflected there.
-    fn emit(&mut self, first: u32, count: usize, emission: &mut LaneEmission) {
-        let Self { tracer, outlook, .. } = *self;
-        let seed = tracer.renderer.seed;
-        tracer.width.run(Emit { seed, first, emission });
+    /// Emits the `count` photons from number `first` on.
+    fn emit(&mut self, first: u32, count: usize, emission: &mut LaneEmission<{ emission::GROUP }>) {
+        let seed = self.tracer.renderer.seed;
+        self.tracer.width.run(Emit { seed, first, emission });
+        emission.cell[count..].fill(NOWHERE);
+        self.sort_out(emission, |lane| first.wrapping_add(lane as u32));
+        (self.done)(Stage::Emission, count);
+    }
+
+    /// Goes on with the rejection loops of the first `count` photons of `queue`.
+    fn emit_again(&mut self, queue: &Queue, count: usize) {
+        let mut emission = LaneEmission::default();
+        let (seed, photons) = (self.tracer.renderer.seed, &queue.map(|photon| photon.draws.photon));
+        self.tracer.width.run(EmitAgain { seed, photons, emission: &mut emission });
+        for lane in 0..count {
+            if emission.drawn[lane] == 0 {
+                // Of 2000 photons, one.
+                let EmittedPhoton { point, draws } = emit_one(seed, photons[lane]);
+                for column in 0..3 {
+                    emission.point[column][lane] = point[column];
+                    emission.next[column][lane] = draws.words[column];
+                }
+                emission.drawn[lane] = draws.drawn;
+                emission.cell[lane] = rough_cell(Vec3::from_array(point));
+            }
+        }
+        emission.cell[count..].fill(NOWHERE);
+        self.sort_out(&emission, |lane| photons[lane % emission::AGAIN]);
+        (self.done)(Stage::Emission, 0);
+    }
+
+    /// Lets those photons of `emission` go on that may hit something and be reflected there.
+    #[inline(always)]
+    fn sort_out<const LANES: usize>(
+        &mut self,
+        emission: &LaneEmission<LANES>,
+        photon: impl Fn(usize) -> u32,
+    ) {
+        let outlook = self.outlook;
         // Without a branch, since which photons these are cannot be predicted.
-        let mut lanes = [0; emission::GROUP];
+        let mut lanes = [0; LANES];
         let mut departing = 0;
         for (lane, (cell, roulette)) in emission.cell.iter().zip(&emission.next[0]).enumerate() {
-            lanes[departing % emission::GROUP] = lane as u8;
-            departing += usize::from(outlook.may_go_on(*cell, *roulette) & (lane < count));
+            lanes[departing % LANES] = lane as u8;
+            departing += usize::from(outlook.may_go_on(*cell, *roulette));
         }
-        (self.done)(Stage::Emission, count);
         for lane in &lanes[..departing] {
-            let lane = usize::from(*lane) % emission::GROUP;
-            let list = outlook.list(emission.cell[lane]);
+            let lane = usize::from(*lane) % LANES;
+            let drawn = emission.drawn[lane];
+            let cell = if drawn == DRAWN_IN_VAIN && LANES == emission::GROUP {
+                UNKNOWN
+            } else {
+                emission.cell[lane]
+            };
+            let list = outlook.list(cell);
             let point = [0, 1, 2].map(|c| emission.point[c][lane]);
-            let (photon, drawn) = (first.wrapping_add(lane as u32), emission.drawn[lane]);
             let words = [0, 1, 2].map(|n| emission.next[n][lane]);
-            self.wait(list, EmittedPhoton { point, draws: Draws { photon, drawn, words } });
+            let draws = Draws { photon: photon(lane), drawn, words };
+            self.wait(list, EmittedPhoton { point, draws });
         }
-        (self.done)(Stage::FirstHit, departing);
     }
 
     /// Lets `photon` wait for others of `list`.
@@ -179,11 +212,11 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
         if waiting == 0 {
             return;
         }
-        let (queue, hits) = (&self.queues[list], &mut self.first_hits);
         if list == outlook.lists() {
-            self.again.extend(&queue[..waiting]);
-            return;
+            let queue = self.queues[list];
+            return self.emit_again(&queue, waiting);
         }
+        let (queue, hits) = (&self.queues[list], &mut self.first_hits);
         let surfaces = &tracer.surfaces;
         tracer.width.run(Meet { outlook, list, surfaces, queue, hits });
         hits.settle(&tracer.renderer.stored_scene, surfaces, self.light, waiting);
@@ -206,59 +239,11 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
         (self.done)(Stage::Scattering, 0);
     }
 
-    /// Goes on with the rejection loops for which the first block was not long enough.
-    fn draw_again(&mut self) {
-        let Self { tracer: LaneTracer { width, renderer, .. }, outlook, .. } = *self;
-        let (mut points, mut tries) = (Vec::new(), Vec::new());
-        let mut ready = Vec::new();
-        for photon in self.again.drain(..) {
-            if photon.draws.drawn == 0 {
-                tries.push(Draws { drawn: emission::DRAWN_IN_VAIN, ..photon.draws });
-            } else {
-                points.push(Vec3::from_array(photon.point));
-                ready.push(photon.draws);
-            }
-        }
-        while !tries.is_empty() {
-            draws::fill(*width, renderer.seed, &mut tries);
-            // Without a branch, as above.
-            let (mut accepted, mut remaining) = (ready.len(), 0);
-            ready.resize(accepted + tries.len(), Draws::default());
-            points.resize(accepted + tries.len(), Vec3::ZERO);
-            for at in 0..tries.len() {
-                let mut draws = tries[at];
-                draws.drawn += 3;
-                let point = Vec3::from_array(draws.words.map(coordinate));
-                let is_accepted = is_in_sphere(point);
-                (points[accepted], ready[accepted], tries[remaining]) = (point, draws, draws);
-                accepted += usize::from(is_accepted);
-                remaining += usize::from(!is_accepted);
-            }
-            ready.truncate(accepted);
-            points.truncate(accepted);
-            tries.truncate(remaining);
-        }
-        let mut kept = 0;
-        for at in 0..ready.len() {
-            (ready[kept], points[kept]) = (ready[at], points[at]);
-            kept += usize::from(outlook.may_go_on(rough_cell(points[at]), 0));
-        }
-        ready.truncate(kept);
-        draws::fill(*width, renderer.seed, &mut ready);
-        (self.done)(Stage::Numbers, ready.len());
-        for (draws, point) in ready.into_iter().zip(points) {
-            let cell = rough_cell(point);
-            if outlook.may_go_on(cell, draws.words[0]) {
-                let photon = EmittedPhoton { point: point.to_array(), draws };
-                self.wait(outlook.list(cell), photon);
-            }
-        }
-    }
-
     /// Draws for the photons on surfaces, and plays their roulette.
     fn play_roulette(&mut self) {
-        let (landed, mut numbers) =
-            (std::mem::take(&mut self.landed), std::mem::take(&mut self.numbers));
+        let landed = std::mem::replace(&mut self.landed, Vec::with_capacity(2 * ENOUGH_LANDED));
+        let mut numbers =
+            std::mem::replace(&mut self.numbers, Vec::with_capacity(2 * ENOUGH_LANDED));
         draws::fill(self.tracer.width, self.tracer.renderer.seed, &mut numbers);
         (self.done)(Stage::Numbers, numbers.len());
         for (arrival, draws) in landed.iter().zip(&numbers) {
