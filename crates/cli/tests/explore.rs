@@ -32,10 +32,9 @@ fn a_known_mistake_of_a_submission_is_named() {
     let line = "explore --photons 5000 --submission {} --out {}";
     run_line(line, &[&list, folder.path()]).success();
     let page = fs::read_to_string(folder.path().join("explore.html")).expect("written");
-    assert!(
-        page.contains("photons.csv: Photon Storage")
-            && page.contains("This is the misreading third-hit-on")
-    );
+    for words in ["photons.csv: Photon Storage", "This is the misreading third-hit-on."] {
+        assert!(page.contains(words), "{words}");
+    }
 }
 
 #[test]

@@ -137,8 +137,8 @@ fn a_submission_shows_where_it_parts() {
 fn hostile_names_stay_names() {
     let Some(browser) = launch(true) else { return };
     let mut reference = traced("");
-    let name = "</script><script>window.hurt = 1</script><img src=x \
-                onerror='hurt=1'>{data}{script}\u{2028}.csv";
+    let name = "</script><script>window.hurt = 1</script></title><script>hurt = 1</script><img \
+                src=x onerror='hurt=1'>{data}{script}\u{2028}.csv";
     reference.table.0[0].name = name.to_owned();
     let mut list = reference.list();
     list.records[10].position.x += 0.2;

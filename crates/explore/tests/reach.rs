@@ -1,5 +1,5 @@
-//! The page for everyone: by keyboard and by touch, on small and large screens, for the color-blind,
-//! with less motion, and without WebGL.
+//! The page for everyone: by keyboard and by touch, on small and large screens, for the
+//! color-blind, with less motion, and without WebGL.
 
 mod browser;
 mod support;
@@ -208,10 +208,10 @@ fn shapes_tell_what_colors_tell() {
 #[test]
 fn no_label_covers_another() {
     let Some(browser) = open_handout("") else { return };
-    let overlaps = "(() => { const boxes = [...document.querySelectorAll('#labels span')].filter((span) \
-         => !span.hidden).map((span) => span.getBoundingClientRect()); return boxes.some((a, i) => \
-         boxes.some((b, j) => i < j && a.left < b.right && b.left < a.right && a.top < b.bottom && \
-         b.top < a.bottom)); })()";
+    let overlaps = "(() => { const spans = [...document.querySelectorAll('#labels span')]; const \
+         boxes = spans.filter((span) => !span.hidden).map((span) => span.getBoundingClientRect()); \
+         return boxes.some((a, i) => boxes.some((b, j) => i < j && a.left < b.right && b.left < \
+         a.right && a.top < b.bottom && b.top < a.bottom)); })()";
     let mut steps = 0;
     for photon in [73, 85, 3101] {
         browser.run(&format!("page.open({photon}, 0, 'emission')"));
