@@ -17,8 +17,10 @@ const SEEDS: u64 = 256;
 const EMITTED: u64 = 4000;
 /// So far apart is a photon that was moved a little, in each coordinate.
 const NEAR: f32 = 3e-3;
-/// Of a run's photons, this part must be there: also a tenth of a list has it.
+/// Of a run's photons, this part must be there: also a tenth of a list has it. In pictures, dots
+/// lie upon each other.
 const FOUND: f64 = 0.08;
+const FOUND_IN_PICTURES: f64 = 0.4;
 /// So many standard deviations more than what chance finds of any run: of 257 runs, the best has
 /// 3.5, and more where chance finds few.
 const ABOVE_CHANCE: f64 = 7.0;
@@ -34,12 +36,12 @@ struct Own {
 
 /// The seed of this program's run that `records` are of, or a part of, or hardly moved.
 pub fn seed_of(records: &[PhotonRecord], seed_of_course: u64) -> Option<u64> {
-    first_seed(seed_of_course, |own| own.seed_of(&own.near_to(records)))
+    first_seed(seed_of_course, |own| own.seed_of(&own.near_to(records), FOUND))
 }
 
 /// The seed of this program's run whose photons make the `red` pixels of a picture in `view`.
 pub fn seed_of_picture(red: &[bool], view: &View, seed_of_course: u64) -> Option<u64> {
-    first_seed(seed_of_course, |own| own.seed_of(&own.with_dots(red, view)))
+    first_seed(seed_of_course, |own| own.seed_of(&own.with_dots(red, view), FOUND_IN_PICTURES))
 }
 
 /// The seed that `seed_of` finds among those that are usual, or near that of the course.
@@ -101,8 +103,8 @@ impl Own {
         self.photons.iter().map(is_red).collect()
     }
 
-    /// The seed of which far more photons are found than of the others.
-    fn seed_of(&self, is_found: &[Option<bool>]) -> Option<u64> {
+    /// The seed of which far more photons are found than of the others, and this part at `least`.
+    fn seed_of(&self, is_found: &[Option<bool>], least: f64) -> Option<u64> {
         let mut found = vec![(0.0, 0.0); self.seeds.len()];
         for ((_, seed), is_found) in self.photons.iter().zip(is_found) {
             if let Some(is_found) = *is_found {
@@ -115,7 +117,7 @@ impl Own {
         order.sort_by(|a, b| part(&found[*a]).total_cmp(&part(&found[*b])));
         let (best, usual) = (*order.last()?, part(&found[order[order.len() / 2]]));
         let deviation = (usual * (1.0 - usual) / found[best].1).sqrt();
-        let least = FOUND.max(usual + ABOVE_CHANCE * deviation);
+        let least = least.max(usual + ABOVE_CHANCE * deviation);
         (part(&found[best]) >= least).then_some(self.seeds[best])
     }
 }
