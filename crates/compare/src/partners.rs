@@ -176,9 +176,9 @@ mod tests {
     #[test]
     fn crowds_take_no_quadratic_time() {
         let (partners, work) = partners_and_work(&crowd(20_000, 0.0), &crowd(20_000, 0.5));
-        assert!(!partners.contains(&ALONE) && work < 2 * MOST_FREE, "{work}");
+        assert!(!partners.contains(&ALONE) && work < 100, "{work}");
         // Most find no place, and nobody can make room.
-        let (partners, work) = partners_and_work(&crowd(1000, 0.0), &crowd(50_000, 0.5));
+        let (partners, work) = partners_and_work(&crowd(1000, 0.0), &crowd(20_000, 0.5));
         assert!(!partners.contains(&ALONE) && work < 200, "{work}");
     }
 

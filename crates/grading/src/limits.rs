@@ -243,8 +243,10 @@ pub(crate) mod own {
     pub(crate) const EMITTED: u64 = 4000;
     /// So far apart is a photon that was moved a little, in each coordinate.
     pub(crate) const NEAR: f32 = 3e-3;
-    /// Of a run's photons, this part must be there: also a tenth of a list has it.
+    /// Of a run's photons, this part must be there: also a tenth of a list has it. In pictures,
+    /// dots lie upon each other.
     pub(crate) const FOUND: f64 = 0.08;
+    pub(crate) const FOUND_IN_PICTURES: f64 = 0.4;
     /// So many standard deviations more than what chance finds of any run: of 257 runs, the best
     /// has 3.5, and more where chance finds few.
     pub(crate) const ABOVE_CHANCE: f64 = 7.0;

@@ -9,7 +9,7 @@ use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
 
 use super::picture::view::View;
-use crate::limits::own::{ABOVE_CHANCE, EMITTED, FOUND, NEAR, SEEDS};
+use crate::limits::own::{ABOVE_CHANCE, EMITTED, FOUND, FOUND_IN_PICTURES, NEAR, SEEDS};
 
 /// Photons of this program's runs, by place.
 struct Own {
@@ -22,12 +22,12 @@ struct Own {
 
 /// The seed of this program's run that `records` are of, or a part of, or hardly moved.
 pub fn seed_of(records: &[PhotonRecord], seed_of_course: u64) -> Option<u64> {
-    first_seed(seed_of_course, |own| own.seed_of(&own.near_to(records)))
+    first_seed(seed_of_course, |own| own.seed_of(&own.near_to(records), FOUND))
 }
 
 /// The seed of this program's run whose photons make the `red` pixels of a picture in `view`.
 pub fn seed_of_picture(red: &[bool], view: &View, seed_of_course: u64) -> Option<u64> {
-    first_seed(seed_of_course, |own| own.seed_of(&own.with_dots(red, view)))
+    first_seed(seed_of_course, |own| own.seed_of(&own.with_dots(red, view), FOUND_IN_PICTURES))
 }
 
 /// The seed that `seed_of` finds among those that are usual, or near that of the course.
@@ -89,8 +89,8 @@ impl Own {
         self.photons.iter().map(is_red).collect()
     }
 
-    /// The seed of which far more photons are found than of the others.
-    fn seed_of(&self, is_found: &[Option<bool>]) -> Option<u64> {
+    /// The seed of which far more photons are found than of the others, and this part at `least`.
+    fn seed_of(&self, is_found: &[Option<bool>], least: f64) -> Option<u64> {
         let mut found = vec![(0.0, 0.0); self.seeds.len()];
         for ((_, seed), is_found) in self.photons.iter().zip(is_found) {
             if let Some(is_found) = *is_found {
@@ -103,7 +103,7 @@ impl Own {
         order.sort_by(|a, b| part(&found[*a]).total_cmp(&part(&found[*b])));
         let (best, usual) = (*order.last()?, part(&found[order[order.len() / 2]]));
         let deviation = (usual * (1.0 - usual) / found[best].1).sqrt();
-        let least = FOUND.max(usual + ABOVE_CHANCE * deviation);
+        let least = least.max(usual + ABOVE_CHANCE * deviation);
         (part(&found[best]) >= least).then_some(self.seeds[best])
     }
 }
