@@ -43,8 +43,7 @@ pub(crate) trait Evidence {
     }
 
     /// The chance of the counts by facet, exactly, under a fair reading; nothing where there are
-    /// too
-    /// many.
+    /// too many.
     fn of_few(&self, _reading: usize) -> Option<f64> {
         None
     }

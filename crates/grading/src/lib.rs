@@ -14,16 +14,14 @@
 //!
 //! **Statistics.** Photons of one path are not independent, so counts are held against means and
 //! *covariance* over paths: the test of Wald, for facets, for cells, for the total, and along the
-//! way to those misreadings that are hard to see. The fair reading that fits best counts. Up to 125
+//! way to each misreading. The fair reading that fits best counts. Up to 125
 //! photons are tested exactly. A submission is incorrect below [`judge_list::SIGNIFICANCE`], a
-//! tenth
-//! of what a class could bear: at small counts the tails of these tests are a little heavier than
-//! the normal law's. Means have a leeway, since where a ray starts, and how far off its surface a
-//! position is stored, are nobody's fault; it matters only beyond a million photons. A misreading
-//! is
-//! named when its own counts agree with the submission's, by facet and by cell, and neither
-//! another's do as well nor those of two at once ([`variants::pairs`]), which are told without a
-//! name. `golden/grading.md` has what all of this achieves.
+//! tenth of what a class could bear: at small counts the tails of these tests are a little heavier
+//! than the normal law's. Means have a leeway, since where a ray starts, and how far off its
+//! surface a position is stored, are nobody's fault; it matters only beyond a million photons. A
+//! misreading is named when its own counts agree with the submission's, by facet and by cell, and
+//! neither another's do as well nor those of two at once ([`variants::pairs`]), which are told
+//! without a name. `golden/grading.md` has what all of this achieves.
 
 mod axes;
 mod bounces;

@@ -20,13 +20,13 @@ pub(crate) const RULED_OUT: f64 = 1e-9;
 pub(crate) const SURE: f64 = 0.95;
 /// Nothing is surer than this: there may be mistakes of which nobody has thought.
 pub(crate) const SUREST: f64 = 0.999;
-/// A constant factor of the intensity with which the photons are less likely than this does not
-/// excuse them: a list that lost as many photons by chance is as likely.
+/// A constant factor of the intensity with which the number of photons is less likely than this
+/// does not excuse it: a list that lost as many photons by chance is as likely.
 pub(crate) const LEAST_LIKELY_SLIP: f64 = 0.02;
-
-/// The same of all ways to misreadings together, each of which has a test.
+/// A correct submission is called incorrect on its way to one of the misreadings, each of which has
+/// a test, as often as this.
 pub(crate) const RATE_OF_WAYS: f64 = 2e-5;
-/// In the same unit, one of them has at least this: 5.6 standard deviations, which nothing that is
+/// Before all are fitted into that, one of them has at least this: 5.6 standard deviations, which nothing that is
 /// farther away fails to reach.
 pub(crate) const LEAST_OF_WAY: f64 = 1e-8;
 /// Of the lists of a misreading that the best test of it alone finds, its test is to find this

@@ -7,6 +7,7 @@
 
 use std::f64::consts::PI;
 
+use super::evidence::Evidence as _;
 use super::limits::{LEAST_LIKELY_SLIP, MOST_STORED, SIGNIFICANCE};
 use super::list::OfList;
 use super::naming::Explanation;
@@ -77,7 +78,8 @@ pub(super) fn other_number(list: &OfList, number: f64, p_value: f64) -> Option<O
     };
     for slip in SLIPS {
         let trial = best_trial(&of(Some(slip.emitted(number))));
-        if trial.p_value >= LEAST_LIKELY_SLIP {
+        let of_number = trial.p_value_of(OfList::WORDS.number[0]);
+        if trial.p_value >= SIGNIFICANCE && of_number >= LEAST_LIKELY_SLIP {
             return new(slip.finding(number, p_value), trial, None);
         }
     }

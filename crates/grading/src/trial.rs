@@ -30,6 +30,12 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
+    /// The chance that `check` found.
+    pub(crate) fn p_value_of(&self, check: &str) -> f64 {
+        let test = self.tests.iter().find(|test| test.check == check);
+        test.map_or(1.0, |test| test.p_value)
+    }
+
     /// What the tests found. Their advice is that of the misreading that explains them, else
     /// `unexplained`.
     pub(crate) fn findings<'a>(

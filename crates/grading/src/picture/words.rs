@@ -78,8 +78,7 @@ pub(super) fn all_red() -> Finding {
 }
 
 /// Whether the dots are enough to be what the handout asks for. Only where they are fair, it is
-/// told
-/// how many photons fit them.
+/// told how many photons fit them.
 pub(super) fn enough(found: f64, fitted: f64, are_fair: bool) -> Finding {
     storage(
         "enough photons",
