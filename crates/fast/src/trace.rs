@@ -11,7 +11,7 @@ use crate::lanes::LaneTracer;
 use crate::lanes::width::Width;
 
 /// How many photons a thread traces before it takes the next piece.
-const PIECE: u64 = 16_384;
+pub const PIECE: u64 = 16_384;
 /// How many groups of photons are traced by the port too, spread evenly over the run.
 const CHECKED_GROUPS: u64 = 64;
 /// How many photons a group has.

@@ -169,3 +169,55 @@ pub fn is_in_sphere(point: Vec3) -> bool {
     // Both comparisons always, where `&&` would branch.
     (length_squared <= RADIUS * RADIUS) & (length_squared > 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::width::Width;
+
+    /// Of 10,000 photons some hundred need more than the first block, and some more than the tries
+    /// of the second kernel.
+    #[test]
+    fn photons_are_emitted_as_one_at_a_time() {
+        let (mut of_first, mut of_again, mut in_vain) = (0, 0, 0);
+        for width in Width::available() {
+            let mut emission = LaneEmission::<GROUP>::default();
+            let mut again = LaneEmission::<AGAIN>::default();
+            for first in (0..10_000).step_by(GROUP) {
+                width.run(Emit { seed: 148, first, emission: &mut emission });
+                for (lane, photon) in (first..).take(GROUP).enumerate() {
+                    let expected = emit_one(148, photon);
+                    if matches!(emission.drawn[lane], 1..DRAWN_IN_VAIN) {
+                        of_first += 1;
+                        check(&emission, lane, &expected);
+                        continue;
+                    }
+                    assert!(expected.draws.drawn >= DRAWN_IN_VAIN, "{photon}");
+                    width.run(EmitAgain {
+                        seed: 148,
+                        photons: &[photon; AGAIN],
+                        emission: &mut again,
+                    });
+                    if again.drawn[lane % AGAIN] == 0 {
+                        in_vain += 1;
+                        assert!(expected.draws.drawn > 27, "{photon}");
+                    } else {
+                        of_again += 1;
+                        check(&again, lane % AGAIN, &expected);
+                    }
+                }
+            }
+        }
+        assert!(of_first > 9000 && of_again > 100 && in_vain > 0, "{of_again} {in_vain}");
+    }
+
+    fn check<const N: usize>(emission: &LaneEmission<N>, lane: usize, expected: &EmittedPhoton) {
+        let EmittedPhoton { point, draws } = expected;
+        assert_eq!([0, 1, 2].map(|c| emission.point[c][lane]), *point, "{}", draws.photon);
+        assert_eq!(emission.drawn[lane], draws.drawn);
+        // A number has 24 bits of its word.
+        let words = [0, 1, 2].map(|n| emission.next[n][lane] & !0xff);
+        assert_eq!(words, draws.words, "{}", draws.photon);
+        assert_eq!(emission.cell[lane], rough_cell(Vec3::from_array(*point)));
+    }
+}

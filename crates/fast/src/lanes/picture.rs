@@ -7,7 +7,7 @@ use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 
 use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
-use super::views::{CameraView, Views};
+use super::views::{CameraRays, CameraView, Views};
 use super::width::Width;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_mapping_renderer::{
@@ -65,7 +65,7 @@ pub fn take_picture(
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each_init(
         || PictureTracer::new(renderer, lanes, &views),
         |tracer, (row, pixels)| {
-            let colors = tracer.sample_colors(width as usize, |column| camera_ray(column, row));
+            let colors = tracer.sample_colors(camera, [width, height], row as u32);
             for (pixel, color) in pixels.chunks_exact_mut(3).zip(colors) {
                 pixel.copy_from_slice(&image_writer::to_bytes(*color));
             }
@@ -179,18 +179,18 @@ impl<'a> PictureTracer<'a> {
         }
     }
 
-    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for the pixels of a row, whose
-    /// rays are those of `camera_ray`.
-    fn sample_colors(&mut self, width: usize, camera_ray: impl Fn(usize) -> Ray) -> &[Vec3] {
+    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for the pixels of a row of the
+    /// picture of `size` that `camera` takes.
+    fn sample_colors(&mut self, camera: &PerspectiveCamera, size: [u32; 2], row: u32) -> &[Vec3] {
         let scene = &self.renderer.stored_scene;
+        let width = size[0] as usize;
         self.colors.clear();
         self.colors.resize(width, Vec3::ZERO);
         self.points.clear();
         for first in (0..width).step_by(GROUP) {
             let count = GROUP.min(width - first);
-            for lane in 0..count {
-                self.rays.set(lane, &camera_ray(first + lane));
-            }
+            let (rays, first_pixel) = (&mut self.rays, [first as u32, row]);
+            self.lanes.run(CameraRays { camera, size, first: first_pixel, rays });
             self.look(count);
             let mut seen = SeenPoints::default();
             for lane in 0..count {

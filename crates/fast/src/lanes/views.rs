@@ -9,6 +9,7 @@ use super::outlook::{self, Outlook};
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
 };
+use photon_mapping::scene::camera::PerspectiveCamera;
 
 /// What a camera may see in which direction.
 pub struct Views {
@@ -33,6 +34,40 @@ impl Views {
         of_cells.push(bits(&(0..triangles as u32).collect::<Vec<_>>()));
         let dots = Neighbourhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS);
         Self { of_cells, all: SharedCorners::new(scene), dots }
+    }
+}
+
+/// Sends rays from `camera` through neighbouring pixels, as
+/// [`photon_mapping::rendering::image_writer::camera_ray`] does.
+pub struct CameraRays<'a> {
+    /// The camera.
+    pub camera: &'a PerspectiveCamera,
+    /// Width and height of the picture.
+    pub size: [u32; 2],
+    /// Column and row of the first pixel.
+    pub first: [u32; 2],
+    /// Where the rays go.
+    pub rays: &'a mut Rays,
+}
+
+impl NullaryFnOnce for CameraRays<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { camera, size: [width, height], first: [column, row], rays } = self;
+        let upwards = (1.0 - 2.0 * (row as f32 / height as f32)) * camera.half_height;
+        let [x, y, z] = &mut rays.direction;
+        for lane in 0..GROUP {
+            let across = (column + lane as u32) as i32 as f32 / width as f32;
+            let across = (2.0 * across - 1.0) * camera.half_width;
+            let direction = camera.forward + across * camera.right + upwards * camera.up;
+            let direction = direction.normalize();
+            (x[lane], y[lane], z[lane]) = (direction.x, direction.y, direction.z);
+        }
+        for (starts, start) in rays.origin.iter_mut().zip(camera.position.to_array()) {
+            starts.fill(start);
+        }
     }
 }
 
@@ -64,7 +99,28 @@ impl NullaryFnOnce for CameraView<'_> {
 mod tests {
     use super::*;
     use crate::lanes::width::Width;
+    use photon_mapping::assignment8;
+    use photon_mapping::rendering::image_writer::camera_ray;
     use photon_mapping::scene::ray::Ray;
+
+    #[test]
+    fn camera_rays_are_those_of_the_port() {
+        let (width, height) = (203, 97);
+        let camera = &assignment8::create_camera(width, height);
+        let mut rays = Rays::default();
+        for lanes in Width::available() {
+            for row in 0..height {
+                for column in (0..width).step_by(GROUP) {
+                    let (size, first) = ([width, height], [column, row]);
+                    lanes.run(CameraRays { camera, size, first, rays: &mut rays });
+                    for lane in 0..GROUP {
+                        let expected = camera_ray(camera, column + lane as u32, row, width, height);
+                        assert_eq!(rays.ray(lane), expected);
+                    }
+                }
+            }
+        }
+    }
 
     /// With shears as small as no photon has them, the signs that an outlook tells may underflow.
     #[test]

@@ -137,7 +137,6 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
         self.tracer.width.run(Emit { seed, first, emission });
         emission.cell[count..].fill(NOWHERE);
         self.sort_out(emission, |lane| first.wrapping_add(lane as u32));
-        (self.done)(Stage::Emission, count);
     }
 
     /// Goes on with the rejection loops of the first `count` photons of `queue`.
@@ -159,7 +158,6 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
         }
         emission.cell[count..].fill(NOWHERE);
         self.sort_out(&emission, |lane| photons[lane % emission::AGAIN]);
-        (self.done)(Stage::Emission, 0);
     }
 
     /// Lets those photons of `emission` go on that may hit something and be reflected there.
@@ -177,6 +175,7 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
             lanes[departing % LANES] = lane as u8;
             departing += usize::from(outlook.may_go_on(*cell, *roulette));
         }
+        (self.done)(Stage::Emission, LANES);
         for lane in &lanes[..departing] {
             let lane = usize::from(*lane) % LANES;
             let drawn = emission.drawn[lane];
@@ -191,6 +190,7 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
             let draws = Draws { photon: photon(lane), drawn, words };
             self.wait(list, EmittedPhoton { point, draws });
         }
+        (self.done)(Stage::FirstHit, departing);
     }
 
     /// Lets `photon` wait for others of `list`.
