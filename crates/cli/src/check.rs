@@ -18,7 +18,7 @@ use photon_list::writer::{Format, ListWriter};
 use photon_mapping::assignment8;
 use rayon::prelude::*;
 
-use super::error::{CliError, print};
+use super::error::{CliError, print_whole};
 use super::grade::{INDEX, json, made_by, places_of_each};
 use super::gradebook::without_formula;
 use super::output::{OutputFile, protect, write};
@@ -186,6 +186,8 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     }
     problems.iter().for_each(|error| super::complain(&format!("error: {error}")));
     match (&folder, &arguments.out) {
+        // An empty report would replace an old one.
+        _ if all.is_empty() => {}
         (Some(folder), _) if arguments.format == CheckFormat::Html => {
             let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
             let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
@@ -193,7 +195,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         }
         (Some(_), _) => {}
         (None, Some(path)) => write(path, together(arguments.format, &all, best))?,
-        (None, None) => print(&together(arguments.format, &all, best))?,
+        (None, None) => print_whole(&together(arguments.format, &all, best))?,
     }
     Ok(if problems.is_empty() { 0 } else { super::FAILED })
 }

@@ -6,7 +6,7 @@ mod support;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use support::{fails, folder, json, run_line, stdout};
+use support::{fails, folder, json, program, run_line, stdout};
 
 fn solution() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../check/tests/submissions/one_function")
@@ -136,6 +136,16 @@ fn what_cannot_be_written_costs_no_other_its_page() {
     for full in ["--out", "--list"] {
         run_line(&format!("check {{}} --quiet {full} /dev/full"), &[&amy]).code(2);
     }
+    let (reader, writer) = std::io::pipe().expect("there are pipes");
+    drop(reader);
+    let status =
+        program(&class).args(["check", "amy", "--quiet"]).stdout(writer).status().expect("it runs");
+    assert_eq!(status.code(), Some(2), "nobody gets the grade");
+    let old = folder.path().join("old.html");
+    fs::write(&old, "old").expect("can be written");
+    let line = "check nosuch --format html --out {}";
+    fails_last(line, &[&old], "nosuch: cannot be read");
+    assert_eq!(fs::read_to_string(&old).expect("it is there"), "old");
     let source = amy.join("PointLight.cpp");
     fails_last("check {} --quiet --out {}", &[&amy, &source], "found one that is read");
     assert_eq!(fs::read_to_string(&source).expect("it is there"), "#error no solution\n");

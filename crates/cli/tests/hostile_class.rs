@@ -36,6 +36,8 @@ fn hostile_class(class: &Path, outside: &Path) -> Vec<String> {
     list("comments", "#,x,y,z,x,y,z\n".repeat(2_000_000).into());
     list("vertices", ply(&format!("element vertex {}\n{xyz}1234", u64::MAX)).into());
     list("nothing", ply(&format!("element none {}\nelement vertex 0\n{xyz}", u64::MAX)).into());
+    let elements: String = (0..90_000).map(|number| format!("element {number:064} 0\n")).collect();
+    list("elements", ply(&format!("{elements}element vertex 0\n{xyz}")).into());
     list("endless-line", vec![b'7'; 20_000_000]);
     list("escape", b"x,y,z\n1,\x1b[2J\xe2\x80\xaebob: correct,3\n".to_vec());
     list("bob: correct, 4 of 4 points", b"x,y\n".to_vec());
@@ -115,7 +117,7 @@ fn a_class_of_attackers_ends_with_all_grades() {
         let grades: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
             panic!("{error}: {}", stderr(&output));
         });
-        assert_eq!((output.status.code(), grades.len()), (Some(0), 42), "{}", stderr(&output));
+        assert_eq!((output.status.code(), grades.len()), (Some(0), 43), "{}", stderr(&output));
         let all = String::from_utf8_lossy(&output.stdout);
         assert!(!all.contains("password"), "what a link leads to is not told");
         assert!(!all.contains('\u{202e}') && !all.contains("\\u001b"));
@@ -136,7 +138,7 @@ fn a_class_of_attackers_ends_with_all_grades() {
     let output =
         Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(fs::read_dir(at("out")).unwrap().count(), 42);
+    assert_eq!(fs::read_dir(at("out")).unwrap().count(), 43);
     fs::remove_dir_all(at("out")).unwrap();
     assert_eq!(tree(folder.path()), before, "nothing outside of the output folder is touched");
 }
