@@ -84,3 +84,36 @@ fn a_number_made_to_fit_gives_few_photons_no_wrong_name() {
         assert!([None, Some("octant-directions")].contains(&name), "{seed}: {name:?}");
     }
 }
+
+#[test]
+fn of_two_hypotheses_that_are_close_none_is_known_better() {
+    // Whose signature has less noise is likelier by this alone: too much for a name, if the two
+    // hardly differ. By marks, "nan-frame" is told from all.
+    const EMITTED: f64 = 1e6;
+    let Expectations { places, signatures, .. } = &*EXPECTATIONS;
+    let none = vec![0.0; places.cells];
+    let noise = |known: &Known<Signature>| EMITTED / known.signature.emitted;
+    let all = || signatures.misreadings.iter().chain(&signatures.unnamed);
+    for named in signatures.misreadings.iter().filter(|it| it.hypothesis.id != "nan-frame") {
+        let expected = named.signature.of_cells(&signatures.correlation, &none, EMITTED);
+        let law = expected.law(true);
+        let others = all().filter(|other| {
+            let id = other.hypothesis.id;
+            ![named.hypothesis.id, "nan-frame"].contains(&id) && noise(other) > noise(named)
+        });
+        let total: f64 = expected.mean.iter().sum();
+        for other in others {
+            let cells = &other.signature.cells;
+            let scale = total / cells.iter().sum::<f64>();
+            let counts: Vec<f64> = cells.iter().map(|mean| scale * mean).collect();
+            let apart: f64 =
+                law.towards(&counts, [counts.clone()].into_iter()).map(|(_, apart)| apart).sum();
+            let by_noise = cells.len() as f64 * (noise(named) + noise(other));
+            let unlikelier = 0.5 * (apart.powi(2) - by_noise) / (1.0 + noise(other));
+            let better = ((1.0 + noise(other)) / (1.0 + noise(named))).ln();
+            let advantage = 0.5 * cells.len() as f64 * better;
+            let [named, other] = [named, other].map(|it| &it.hypothesis.title);
+            assert!(unlikelier > advantage, "{named}; {other}: {unlikelier} {advantage}");
+        }
+    }
+}
