@@ -163,7 +163,7 @@ fn a_wrong_law_in_a_wrong_frame_is_told_as_both() {
 #[test]
 fn a_law_without_a_name_below_the_surface_is_told_as_both() {
     let changes = [
-        ("std::sqrt(1.f - u1)", "std::sqrt(1.f - r)"),
+        ("std::sqrt(1.f - u1)", "std::sqrt(1.f - u1 * u1 * u1)"),
         ("n = state.ComputeNormal()", "n = -state.ComputeNormal()"),
         // Offset to the right side, lest rays meet their own surface.
         ("hit + 1e-5f * n", "hit - 1e-5f * n"),
@@ -174,6 +174,84 @@ fn a_law_without_a_name_below_the_surface_is_told_as_both() {
         (Section::HemisphereRayTransformation, Some("flipped-normal")),
     ];
     assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// Degrees go around 57 times, which looks even: only the numbers drawn tell.
+#[test]
+fn angles_in_degrees_are_told() {
+    let theta = "2.f * 3.14159265f * u2";
+    let loop_begins = "do {";
+    let polar = "z = 2.f * ((float)rand() / RAND_MAX) - 1.f;
+    sum = 360.f * ((float)rand() / RAND_MAX);
+    x = std::sqrt(1.f - z * z) * std::cos(sum);
+    y = std::sqrt(1.f - z * z) * std::sin(sum);
+    ray.SetRayPosition(glm::vec3(GetPosition()));
+    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
+    return;
+    do {";
+    let Some(report) = report(&[(theta, "360 * u2"), (loop_begins, polar)]) else { return };
+    let expected = [
+        (Section::PhotonEmission, Some("angle-in-degrees")),
+        (Section::HemisphereSampling, Some("angle-in-degrees")),
+    ];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// With pi = 3.14, no photon lands where anyone could see it.
+#[test]
+fn a_short_pi_costs_nothing() {
+    let Some(report) = report(&[("3.14159265f", "3.14f")]) else { return };
+    assert_eq!(faults(&report), [], "{}", sections_text(&report));
+    let remarks = &report.sections[3].remarks;
+    assert!(remarks.iter().any(|remark| remark.contains("digits of pi")), "{remarks:?}");
+}
+
+/// Photons that scatter below the surface have a path, too.
+#[test]
+fn a_path_that_does_not_grow_is_told_where_photons_go_below_the_surface() {
+    let changes =
+        [("n = state.ComputeNormal()", "n = -state.ComputeNormal()"), ("path.push_back('D');", "")];
+    let Some(report) = report(&changes) else { return };
+    let expected = [
+        (Section::PhotonStorage, Some("path-does-not-grow")),
+        (Section::HemisphereRayTransformation, Some("flipped-normal")),
+    ];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// u1 is small, but u2 does not follow from it.
+#[test]
+fn a_number_used_again_is_one_fault() {
+    let changes = [
+        (
+            "if ((float)rand() / RAND_MAX >= pr)",
+            "const float u1 = (float)rand() / RAND_MAX;\n    if (u1 >= pr)",
+        ),
+        (
+            "    const float u1 = (float)rand() / RAND_MAX;\n    const float u2",
+            "    const float u2",
+        ),
+    ];
+    let Some(report) = report(&changes) else { return };
+    let expected = [(Section::HemisphereSampling, Some("roulette-number-again"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// Laws of the height that the handout's z has not.
+#[test]
+fn other_laws_of_the_height_have_names() {
+    let cases = [
+        ("std::sqrt(1.f - r)", "other-height"),
+        ("std::sqrt(1.f - u1 * u1)", "other-height"),
+        ("1.f - r", "other-height"),
+        ("1.f", "other-height"),
+        ("1.f - u1", "no-square-root-of-height"),
+    ];
+    for (height, name) in cases {
+        let Some(report) = report(&[("std::sqrt(1.f - u1)", height)]) else { return };
+        let expected = [(Section::HemisphereSampling, Some(name))];
+        assert_eq!(faults(&report), expected, "{height}: {}", sections_text(&report));
+    }
 }
 
 #[test]
@@ -193,6 +271,16 @@ fn a_crash_in_every_call_is_told_once() {
     assert_eq!(faults(&report), [(Section::PhotonStorage, None)], "{}", sections_text(&report));
     let statuses = report.sections[2..].iter().map(|verdict| verdict.status);
     assert!(statuses.clone().all(|status| status == Status::NotReached));
+}
+
+/// What happens after the roulette is no matter of storing.
+#[test]
+fn a_crash_after_the_roulette_is_told_under_scattering() {
+    let crash = "*(volatile int*)nullptr = 1;\n    Ray scattered(";
+    let Some(report) = report(&[("Ray scattered(", crash)]) else { return };
+    let expected = [(Section::PhotonScatteringAbsorption, None)];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+    assert_eq!(report.sections[1].status, Status::NotReached);
 }
 
 /// What ends a call only where its ray meets nothing says nothing about the roulette.

@@ -167,6 +167,8 @@ void guard() {
     // For constructors of static objects; each step then has its own.
     photon_check::give_processor_time(3);
     photon_check::open_pipe();
+    // Whoever ends the checker ends this program, too.
+    prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
     Filter filter;
     filter.load(static_cast<unsigned>(offsetof(seccomp_data, arch)));
     filter.if_equal_skip(architecture, 1);

@@ -185,7 +185,8 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
     } else if !is_uniform(sines) {
         let found =
             format!("directions do not follow the cosine: its mean is {cosine:.3}; expected 0.667");
-        let advice = "Take r = sqrt(u1) and z = sqrt(1 - u1), equations (2) and (6).";
+        let advice = "Equations (2) to (6), with u1 and u2 drawn anew: r = sqrt(u1), \
+                      theta = 2 pi u2, x = r cos(theta), y = r sin(theta), z = sqrt(1 - u1).";
         verdict.fault(None, found, advice);
     }
     let has_fault_around = judge_turns(directions, verdict);

@@ -71,10 +71,24 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     let stores_before_dying = observed.death(PlanStep::Black).is_some()
         && observed.death(PlanStep::StoreLater(2)).is_some()
         && calls(PlanStep::StoreLater(2)).iter().all(|call| call.stored.len() == 1);
+    // What dies only where photons scatter, dies in what other sections ask for.
+    let dies_scattering = observed.death(PlanStep::White).is_some()
+        && [PlanStep::Black, PlanStep::StoreMiss]
+            .into_iter()
+            .all(|step| observed.death(step).is_none());
     let own: Vec<_> = STEPS
         .into_iter()
-        .filter(|step| !(stores_before_dying && is_on_black_wall(*step)))
+        .filter(|step| match is_on_black_wall(*step) {
+            true => !stores_before_dying,
+            false => !dies_scattering || *step == PlanStep::StoreMiss,
+        })
         .collect();
+    if dies_scattering && verdict.faults.is_empty() {
+        verdict.not_reached(
+            "TracePhoton does not end well where photons scatter, so whether 'path' grows was not \
+             seen",
+        );
+    }
     verdict.finish(observed, "TracePhoton", &own, told)
 }
 

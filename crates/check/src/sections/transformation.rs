@@ -124,7 +124,8 @@ fn judge_frames(directions: &Directions, verdict: &mut SectionVerdict) {
         Some(FrameForm::Flipped) => (
             Some("flipped-normal"),
             "photons leave below the surface they hit",
-            "Use the normal of state.ComputeNormal() as it is, in the matrix's third column.",
+            "Use the normal of state.ComputeNormal() as it is, in the matrix's third column; z in \
+             equation (6) is never negative.",
         ),
         Some(FrameForm::Transposed) => (
             Some("transposed-frame"),

@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn turns_are_found_whatever_the_number_and_the_direction() {
-        for turns in [0.5, 3.14 / std::f64::consts::PI, 1.0, 2.0, 360.0 / TAU] {
+        for turns in [0.5, 22.0 / 7.0 / std::f64::consts::PI, 1.0, 2.0, 360.0 / TAU] {
             for angle in [
                 seen(|_, u2| 0.3 + turns * u2),
                 seen(|u1, _| turns * u1),
