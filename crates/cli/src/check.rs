@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use check::find::{CppSubmission, name_of, refuse_class};
+use check::find::{CppSubmission, refuse_class};
 use check::kit::Kit;
 use check::sandbox::has_bubblewrap;
 use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
 use grading::page::{Pages, index::Index};
-use grading::text::verdict_in_words;
+use grading::policy::Policy;
 use grading::verdict::Grade;
 use photon_list::writer::{Format, ListWriter};
 use photon_mapping::assignment8;
@@ -18,12 +18,21 @@ use rayon::prelude::*;
 
 use super::error::{CliError, print};
 use super::grade::{INDEX, file_names, json, made_by, refuse_others};
-use super::gradebook::without_formula;
+use super::gradebook::{GradebookArgs, Roll};
 use super::output::{OutputFile, write};
 use super::{progress, values};
 
-const CSV_HEADER: &str = "submission,verdict,score,misreadings,builds,emission,storage,scattering,\
-    sampling,transformation,whole\n";
+/// The columns of the table after those of every gradebook.
+const CSV_COLUMNS: [&str; 8] = [
+    "misreadings",
+    "builds",
+    "emission",
+    "storage",
+    "scattering",
+    "sampling",
+    "transformation",
+    "whole",
+];
 
 /// The options of `check`.
 #[derive(Debug, Args)]
@@ -61,6 +70,8 @@ pub struct CheckArgs {
     /// submissions, a folder
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    gradebook: GradebookArgs,
     /// No progress bar
     #[arg(long, short)]
     quiet: bool,
@@ -106,7 +117,9 @@ struct Checked {
 /// # Errors
 /// When there is no compiler or no glm, or a path cannot be read.
 pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
-    let paths = submissions(arguments)?;
+    let (mut roll, named) =
+        arguments.gradebook.folders(&arguments.submissions, submissions(arguments)?)?;
+    let (names, paths): (Vec<String>, Vec<PathBuf>) = named.into_iter().unzip();
     if arguments.list.is_some() && paths.len() != 1 {
         let found = paths.len();
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
@@ -117,15 +130,14 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             format!("--out: expected a folder for a file of each of {} submissions", paths.len());
         return Err(CliError::Argument(message));
     }
-    // As a submission is called when it was found.
-    let names: Vec<String> = paths.iter().map(|path| name_of(path)).collect();
     let files = file_names(names.iter().map(String::as_str), extension.unwrap_or_default());
     if let (Some(extension), Some(folder)) = (extension, &arguments.out) {
         refuse_others(folder, &files, extension)?;
     }
     if !has_bubblewrap() {
         super::complain(
-            "note: bubblewrap is not installed, so submissions can read files of this account",
+            "note: bubblewrap is not installed or does not work here, so submissions can read \
+             files of this account",
         );
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
@@ -145,8 +157,8 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     let pages = Pages::new(&expectations, &grading.policy, has_index);
     let best = grading.policy.best();
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
-    let one = |(path, file): (&PathBuf, String)| -> Result<Checked, CliError> {
-        let submission = CppSubmission::find(path).map_err(argument)?;
+    let one = |((path, name), file): ((&PathBuf, String), String)| -> Result<Checked, CliError> {
+        let submission = CppSubmission { name, ..CppSubmission::find(path).map_err(argument)? };
         let report = check(&submission, &kit, &settings).map_err(argument)?;
         let graded = check::grade::grade(&report, &grading, &expectations);
         let output = match arguments.format {
@@ -165,7 +177,8 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         let report = CheckReport { list: None, ..report };
         Ok(Checked { report, grade: graded.grade, file, output })
     };
-    let results: Vec<Result<Checked, CliError>> = paths.par_iter().zip(files).map(one).collect();
+    let results: Vec<Result<Checked, CliError>> =
+        paths.par_iter().zip(names).zip(files).map(one).collect();
     bar.finish_and_clear();
     let mut failed = 0;
     let mut all = Vec::new();
@@ -174,14 +187,15 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
             Ok(checked) => all.push(checked),
             Err(error) => {
                 failed += 1;
+                roll.leave_out(all.len());
                 super::complain(&format!("error: {error}"));
             }
         }
     }
     match (extension, &arguments.out) {
-        (Some(extension), Some(folder)) => write_each(&all, folder, extension, best)?,
+        (Some(extension), Some(folder)) => write_each(&all, folder, extension, best, &roll)?,
         (_, out) => {
-            let text = together(arguments.format, &all, best);
+            let text = together(arguments.format, &all, &grading.policy, &roll);
             match out {
                 Some(path) => write(path, &text)?,
                 None => print(&text)?,
@@ -206,25 +220,34 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
 }
 
 /// A file for each submission in `folder`; for pages, one more that leads to them.
-fn write_each(all: &[Checked], folder: &Path, extension: &str, best: f64) -> Result<(), CliError> {
+fn write_each(
+    all: &[Checked],
+    folder: &Path,
+    extension: &str,
+    best: f64,
+    roll: &Roll,
+) -> Result<(), CliError> {
     for checked in all {
         write(&folder.join(&checked.file), &checked.output)?;
     }
     if extension == "html" {
         let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
-        let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
+        let made_by = made_by(roll.is_anonymous());
+        let index = Index { pages, absent: roll.absent(), best, made_by };
         write(&folder.join(INDEX), index.page())?;
     }
     Ok(())
 }
 
 /// All reports in one text.
-fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
+fn together(format: CheckFormat, all: &[Checked], policy: &Policy, roll: &Roll) -> String {
+    let grades: Vec<&Grade> = all.iter().map(|checked| &checked.grade).collect();
     match format {
         CheckFormat::Text => {
+            let best = policy.best();
             let texts =
                 all.iter().map(|checked| check::text::text(&checked.report, &checked.grade, best));
-            texts.collect::<Vec<_>>().join("\n")
+            texts.collect::<Vec<_>>().join("\n") + &roll.text(&grades)
         }
         CheckFormat::Json => {
             let reports: Vec<_> = all
@@ -236,8 +259,8 @@ fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
             json(&reports)
         }
         CheckFormat::Csv => {
-            let lines = all.iter().map(|checked| csv_line(checked) + "\n");
-            CSV_HEADER.to_owned() + &lines.collect::<String>()
+            let cells = |at: usize| cells(&all[at].report);
+            roll.csv(&grades, policy.unreadable, &CSV_COLUMNS, cells)
         }
         CheckFormat::Html | CheckFormat::Gradescope => {
             all.iter().map(|checked| checked.output.as_str()).collect()
@@ -245,22 +268,15 @@ fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
     }
 }
 
-fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
+/// What `CSV_COLUMNS` say of a submission.
+fn cells(report: &CheckReport) -> Vec<String> {
     let names = report.sections.iter().flat_map(|verdict| &verdict.faults);
     let names: Vec<_> = names.filter_map(|fault| fault.name).collect();
-    let mut cells = vec![
-        report.submission.clone(),
-        verdict_in_words(grade.verdict).to_owned(),
-        grade.score.to_string(),
-        names.join(" "),
-        report.builds.sentence(),
-    ];
+    let mut cells = vec![names.join(" "), report.builds.sentence()];
     let statuses = (0..5).map(|at| report.sections.get(at).map_or("", |v| v.status.in_words()));
     cells.extend(statuses.map(str::to_owned));
     cells.push(report.whole.sentence(&report.sections));
-    let cells = cells.iter().map(|cell| without_formula(cell));
-    let quoted = cells.map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
-    quoted.collect::<Vec<_>>().join(",")
+    cells
 }
 
 fn write_list(path: &Path, report: &CheckReport) -> Result<(), CliError> {
