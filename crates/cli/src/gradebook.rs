@@ -61,7 +61,7 @@ struct CheckedBefore {
 }
 
 /// What was handed in, what it is called, and whose it is if an export or its name says so.
-type Known<T> = (Option<Student>, String, T);
+type Named<T> = (Option<Student>, String, T);
 
 impl GradebookArgs {
     /// Names and orders what was `handed_in` at `paths`.
@@ -106,14 +106,14 @@ impl GradebookArgs {
     }
 
     /// Names and orders what is `known`.
-    fn roll<T>(&self, mut known: Vec<Known<T>>) -> Result<(Roll, Vec<(String, T)>), CliError> {
+    fn roll<T>(&self, mut known: Vec<Named<T>>) -> Result<(Roll, Vec<(String, T)>), CliError> {
         let mut roll = Roll { is_anonymous: self.anonymous, ..Roll::default() };
         if let Some(path) = &self.before {
             roll.before = earlier(path)?;
         }
         if let Some(path) = &self.roster {
             let roster = export::roster(path)?;
-            let place = |(student, name, _): &Known<T>| {
+            let place = |(student, name, _): &Named<T>| {
                 roster.iter().position(|one| one.is(last_word(name), student.as_ref()))
             };
             known.sort_by_key(|one| place(one).unwrap_or(usize::MAX));
@@ -167,10 +167,10 @@ fn number(name: &str) -> u64 {
 }
 
 /// A list and a picture of one student that an export names apart become one submission.
-fn join(all: Vec<Known<HandedIn>>) -> Vec<Known<HandedIn>> {
-    let mut joined: Vec<Known<HandedIn>> = Vec::new();
+fn join(all: Vec<Named<HandedIn>>) -> Vec<Named<HandedIn>> {
+    let mut joined: Vec<Named<HandedIn>> = Vec::new();
     for (student, name, one) in all {
-        let fits = |other: &&mut Known<HandedIn>| {
+        let fits = |other: &&mut Named<HandedIn>| {
             let (a, b) = (&one.submission, &other.2.submission);
             student.is_some()
                 && student == other.0
