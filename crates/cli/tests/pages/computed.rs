@@ -64,7 +64,10 @@ fn numbers_of_the_expected_values() {
 fn numbers_of_the_scene_and_of_rounding() {
     let scene = assignment8::create_scene();
     // Of the box sides that face x, but not the wall, which does exactly.
-    let lengths = scene.triangles().iter().map(|triangle| 1.0 - triangle.normal.x.powi(2));
+    let lengths = scene.triangles().iter().map(|triangle| {
+        let x = triangle.normal.x;
+        1.0 - x * x
+    });
     let lengths: Vec<f32> = lengths.filter(|length| (0.01..0.2).contains(length)).collect();
     assert_eq!(lengths.len(), 2 * 4);
     let [least, most] = [f32::min, f32::max]
