@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use check::find::{CppSubmission, name_of, refuse_class};
+use check::find::{CppSubmission, refuse_class};
 use check::kit::Kit;
 use check::sandbox::has_bubblewrap;
 use check::{CheckReport, CheckSettings, check};
@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 use grading::gradescope;
 use grading::intake::class::left_out;
 use grading::page::{Pages, index::Index};
-use grading::text::verdict_in_words;
+use grading::policy::Policy;
 use grading::verdict::Grade;
 use photon_list::writer::{Format, ListWriter};
 use photon_mapping::assignment8;
@@ -20,12 +20,21 @@ use rayon::prelude::*;
 
 use super::error::{CliError, print_whole};
 use super::grade::{INDEX, json, made_by, places_of_each};
-use super::gradebook::without_formula;
+use super::gradebook::{GradebookArgs, Roll};
 use super::output::{OutputFile, protect, write};
 use super::{progress, values};
 
-const CSV_HEADER: &str = "submission,verdict,score,misreadings,builds,emission,storage,scattering,\
-    sampling,transformation,whole\n";
+/// The columns of the table after those of every gradebook.
+const CSV_COLUMNS: [&str; 8] = [
+    "misreadings",
+    "builds",
+    "emission",
+    "storage",
+    "scattering",
+    "sampling",
+    "transformation",
+    "whole",
+];
 
 /// The options of `check`.
 #[derive(Debug, Args)]
@@ -63,6 +72,8 @@ pub struct CheckArgs {
     /// submissions, a folder
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    gradebook: GradebookArgs,
     /// No progress bar
     #[arg(long, short)]
     quiet: bool,
@@ -110,27 +121,30 @@ struct Checked {
 /// # Errors
 /// When there is no compiler or no glm, or a path cannot be read.
 pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
-    let paths = submissions(arguments)?;
+    let (mut roll, named) =
+        arguments.gradebook.folders(&arguments.submissions, submissions(arguments)?)?;
+    let (names, paths): (Vec<String>, Vec<PathBuf>) = named.into_iter().unzip();
     if arguments.list.is_some() && paths.len() != 1 {
         let found = paths.len();
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
     }
-    // As a submission is called when it was found.
-    let names: Vec<String> = paths.iter().map(|path| name_of(path)).collect();
     let (folder, files) = places_of_each(
         arguments.format.of_each(),
         arguments.out.as_deref(),
         names.iter().map(String::as_str),
         paths.len(),
     )?;
-    let found: Vec<Result<CppSubmission, CliError>> =
-        paths.iter().map(|path| CppSubmission::find(path).map_err(argument)).collect();
+    let find = |(path, name): (&PathBuf, String)| {
+        Ok(CppSubmission { name, ..CppSubmission::find(path).map_err(argument)? })
+    };
+    let found: Vec<Result<CppSubmission, CliError>> = paths.iter().zip(names).map(find).collect();
     for submission in found.iter().flatten() {
         protect(submission.light.iter().chain(&submission.renderer).chain(&submission.headers));
     }
     if !has_bubblewrap() {
         super::complain(
-            "note: bubblewrap is not installed, so submissions can read files of this account",
+            "note: bubblewrap is not installed or does not work here, so submissions can read \
+             files of this account",
         );
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
@@ -181,21 +195,26 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
                 problems.append(&mut checked.problems);
                 all.push(checked);
             }
-            Err(error) => problems.push(error),
+            Err(error) => {
+                roll.leave_out(all.len());
+                problems.push(error);
+            }
         }
     }
     problems.iter().for_each(|error| super::complain(&format!("error: {error}")));
+    let together = || together(arguments.format, &all, &grading.policy, &roll);
     match (&folder, &arguments.out) {
         // An empty report would replace an old one.
         _ if all.is_empty() => {}
         (Some(folder), _) if arguments.format == CheckFormat::Html => {
             let pages = all.iter().map(|checked| (&checked.grade, checked.file.clone())).collect();
-            let index = Index { pages, absent: Vec::new(), best, made_by: made_by(false) };
+            let made_by = made_by(roll.is_anonymous());
+            let index = Index { pages, absent: roll.absent(), best, made_by };
             write(&folder.join(INDEX), index.page())?;
         }
         (Some(_), _) => {}
-        (None, Some(path)) => write(path, together(arguments.format, &all, best))?,
-        (None, None) => print_whole(&together(arguments.format, &all, best))?,
+        (None, Some(path)) => write(path, together())?,
+        (None, None) => print_whole(&together())?,
     }
     Ok(if problems.is_empty() { 0 } else { super::FAILED })
 }
@@ -229,12 +248,14 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
 }
 
 /// All reports in one text.
-fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
+fn together(format: CheckFormat, all: &[Checked], policy: &Policy, roll: &Roll) -> String {
+    let grades: Vec<&Grade> = all.iter().map(|checked| &checked.grade).collect();
     match format {
         CheckFormat::Text => {
+            let best = policy.best();
             let texts =
                 all.iter().map(|checked| check::text::text(&checked.report, &checked.grade, best));
-            texts.collect::<Vec<_>>().join("\n")
+            texts.collect::<Vec<_>>().join("\n") + &roll.text(&grades)
         }
         CheckFormat::Json => {
             let reports: Vec<_> = all
@@ -246,8 +267,8 @@ fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
             json(&reports)
         }
         CheckFormat::Csv => {
-            let lines = all.iter().map(|checked| csv_line(checked) + "\n");
-            CSV_HEADER.to_owned() + &lines.collect::<String>()
+            let cells = |at: usize| cells(&all[at].report);
+            roll.csv(&grades, policy.unreadable, &CSV_COLUMNS, cells)
         }
         CheckFormat::Html | CheckFormat::Gradescope => {
             all.iter().map(|checked| checked.output.as_str()).collect()
@@ -255,22 +276,15 @@ fn together(format: CheckFormat, all: &[Checked], best: f64) -> String {
     }
 }
 
-fn csv_line(Checked { report, grade, .. }: &Checked) -> String {
+/// What `CSV_COLUMNS` say of a submission.
+fn cells(report: &CheckReport) -> Vec<String> {
     let names = report.sections.iter().flat_map(|verdict| &verdict.faults);
     let names: Vec<_> = names.filter_map(|fault| fault.name).collect();
-    let mut cells = vec![
-        report.submission.clone(),
-        verdict_in_words(grade.verdict).to_owned(),
-        grade.score.to_string(),
-        names.join(" "),
-        report.builds.sentence(),
-    ];
+    let mut cells = vec![names.join(" "), report.builds.sentence()];
     let statuses = (0..5).map(|at| report.sections.get(at).map_or("", |v| v.status.in_words()));
     cells.extend(statuses.map(str::to_owned));
     cells.push(report.whole.sentence(&report.sections));
-    let cells = cells.iter().map(|cell| without_formula(cell));
-    let quoted = cells.map(|cell| format!("\"{}\"", cell.replace('"', "\"\"")));
-    quoted.collect::<Vec<_>>().join(",")
+    cells
 }
 
 fn write_list(path: &Path, report: &CheckReport) -> Result<(), CliError> {

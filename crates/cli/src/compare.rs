@@ -134,11 +134,12 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
             }
             (trace(&run, arguments.quiet), reader::load(submission)?)
         }
-        _ => {
-            return Err(CliError::Argument(
-                "expected REFERENCE and SUBMISSION, or --seed and --photons in place of REFERENCE"
-                    .to_owned(),
-            ));
+        files => {
+            let count = files.len();
+            return Err(CliError::Argument(format!(
+                "expected the files REFERENCE and SUBMISSION, found {count}; to compare one list \
+                 with the reference, add --seed 148 --photons N"
+            )));
         }
     };
     let mut notes = Vec::new();

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::error::{CliError, print};
 use super::run_args::RunArgs;
+use super::values;
 use compare::explain::{explain, first_that_stores};
 use variants::run::Run;
 
@@ -14,10 +15,12 @@ use variants::run::Run;
 pub struct ExplainArgs {
     /// The photon's number, counted from 0 over all lights; with --until-stored, where to start
     /// looking [default with --until-stored: 0]
-    #[arg(required_unless_present = "until_stored")]
+    #[arg(required_unless_present = "until_stored", allow_negative_numbers = true,
+          value_parser = values::whole(0_u64, u64::MAX))]
     photon: Option<u64>,
     /// The first photon that stores at least K photons
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "K", allow_negative_numbers = true,
+          value_parser = values::whole(1_u16, 1000))]
     until_stored: Option<u16>,
     /// Print the story as JSON
     #[arg(long)]

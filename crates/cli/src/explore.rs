@@ -21,6 +21,7 @@ use super::beside_expected::beside_expected;
 use super::error::{CliError, print};
 use super::output::{self, OutputFile};
 use super::run_args::RunArgs;
+use super::values;
 
 /// The name of the page.
 pub const PAGE: &str = "explore.html";
@@ -30,12 +31,13 @@ pub const PAGE: &str = "explore.html";
 #[command(after_help = "The page is one file. Open it in a browser; it needs no network.")]
 pub struct ExploreArgs {
     /// Open the page on this photon [default: the first that is stored]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = values::whole(0_u64, u64::MAX))]
     photon: Option<u64>,
     /// Show this photon list (PLY or CSV) over the reference's
     #[arg(long, value_name = "FILE", conflicts_with = "misreading")]
     submission: Option<PathBuf>,
-    /// Lay over the reference's list what this misreading stores, as transposed-frame
+    /// Show what this misreading stores over the reference's list, for example transposed-frame
     #[arg(long, value_name = "NAME", conflicts_with = "scene",
           value_parser = clap::builder::PossibleValuesParser::new(misreading::names()))]
     misreading: Option<String>,

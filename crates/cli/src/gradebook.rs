@@ -24,7 +24,7 @@ pub struct GradebookArgs {
     /// Number the submissions in place of names, to show the grades around
     #[arg(long, conflicts_with = "roster")]
     anonymous: bool,
-    /// The grades of an earlier run, written with --format json: says what changed
+    /// The grades of an earlier run with --format json: says what changed
     #[arg(long, value_name = "OLD.json")]
     before: Option<PathBuf>,
 }
@@ -46,13 +46,22 @@ struct Before {
     verdict: String,
 }
 
-/// The grades of an earlier run: of one submission, or of several.
+/// The grades of an earlier run: of one submission or of several, or those of `check`.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Earlier {
     One(Before),
     Several(Vec<Before>),
+    Checked(Vec<CheckedBefore>),
 }
+
+#[derive(Deserialize)]
+struct CheckedBefore {
+    grade: Before,
+}
+
+/// What was handed in, what it is called, and whose it is if an export or its name says so.
+type Named<T> = (Option<Student>, String, T);
 
 impl GradebookArgs {
     /// Names and orders what was `handed_in` at `paths`.
@@ -64,47 +73,80 @@ impl GradebookArgs {
         paths: &[PathBuf],
         handed_in: &mut Vec<HandedIn>,
     ) -> Result<Roll, CliError> {
-        let mut class = Roll { is_anonymous: self.anonymous, ..Roll::default() };
-        if let Some(path) = &self.before {
-            class.before = earlier(path)?;
-        }
         let exported = export::students(paths);
         let known = handed_in.drain(..).map(|one| {
-            let student = exported.get(Path::new(&one.submission.name)).cloned();
-            (student.or_else(|| export::in_name(last_word(&one.submission.name))), one)
+            let name = one.submission.name.clone();
+            (student_of(&exported, Path::new(&name)), name, one)
         });
-        let mut known = join(known.collect());
+        let (roll, named) = self.roll(join(known.collect()))?;
+        for (name, mut one) in named {
+            one.submission.name = name;
+            if self.anonymous {
+                one.notes.clear();
+            }
+            handed_in.push(one);
+        }
+        Ok(roll)
+    }
+
+    /// Names and orders the `folders` that were handed in, which are at `paths` or in them.
+    ///
+    /// # Errors
+    /// When the roster or the earlier grades cannot be read.
+    #[cfg(unix)]
+    pub fn folders(
+        &self,
+        paths: &[PathBuf],
+        folders: Vec<PathBuf>,
+    ) -> Result<(Roll, Vec<(String, PathBuf)>), CliError> {
+        let exported = export::students(paths);
+        let known =
+            |path: PathBuf| (student_of(&exported, &path), check::find::name_of(&path), path);
+        self.roll(folders.into_iter().map(known).collect())
+    }
+
+    /// Names and orders what is `known`.
+    fn roll<T>(&self, mut known: Vec<Named<T>>) -> Result<(Roll, Vec<(String, T)>), CliError> {
+        let mut roll = Roll { is_anonymous: self.anonymous, ..Roll::default() };
+        if let Some(path) = &self.before {
+            roll.before = earlier(path)?;
+        }
         if let Some(path) = &self.roster {
             let roster = export::roster(path)?;
-            let place = |one: &(Option<Student>, HandedIn)| {
-                let name = last_word(&one.1.submission.name);
-                roster.iter().position(|student| student.is(name, one.0.as_ref()))
+            let place = |(student, name, _): &Named<T>| {
+                roster.iter().position(|one| one.is(last_word(name), student.as_ref()))
             };
             known.sort_by_key(|one| place(one).unwrap_or(usize::MAX));
             let places: Vec<Option<usize>> = known.iter().map(place).collect();
-            for ((student, _), place) in known.iter_mut().zip(&places) {
+            for ((student, _, _), place) in known.iter_mut().zip(&places) {
                 *student = place.map(|place| roster[place].clone()).or(student.take());
             }
             let is_absent = |(place, _): &(usize, Student)| !places.contains(&Some(*place));
             let absent = roster.into_iter().enumerate().filter(is_absent);
-            class.absent = absent.map(|(_, student)| student).collect();
+            roll.absent = absent.map(|(_, student)| student).collect();
         }
         if self.anonymous {
             // By name, their numbers would tell who is who.
-            known.sort_by_key(|(_, one)| number(&one.submission.name));
+            known.sort_by_key(|(_, name, _)| number(name));
         }
-        for (at, (student, mut one)) in known.into_iter().enumerate() {
-            if self.anonymous {
-                one.submission.name = format!("submission {}", at + 1);
-                one.notes.clear();
-            } else if let Some(student) = &student {
-                one.submission.name.clone_from(&student.name);
-            }
-            class.students.push(student);
-            handed_in.push(one);
+        let mut named = Vec::new();
+        for (at, (student, name, one)) in known.into_iter().enumerate() {
+            let name = match &student {
+                _ if self.anonymous => format!("submission {}", at + 1),
+                Some(student) => student.name.clone(),
+                None => name,
+            };
+            roll.students.push(student);
+            named.push((name, one));
         }
-        Ok(class)
+        Ok((roll, named))
     }
+}
+
+/// Whose submission is at `path`: an export says so, or the name that it gave.
+fn student_of(exported: &BTreeMap<PathBuf, Student>, path: &Path) -> Option<Student> {
+    let in_name = || export::in_name(last_word(&path.to_string_lossy()));
+    exported.get(path).cloned().or_else(in_name)
 }
 
 /// What a student or a course system called the file or folder `name`: its path's end, without what
@@ -125,26 +167,26 @@ fn number(name: &str) -> u64 {
 }
 
 /// A list and a picture of one student that an export names apart become one submission.
-fn join(all: Vec<(Option<Student>, HandedIn)>) -> Vec<(Option<Student>, HandedIn)> {
-    let mut joined: Vec<(Option<Student>, HandedIn)> = Vec::new();
-    for (student, one) in all {
-        let fits = |other: &&mut (Option<Student>, HandedIn)| {
-            let (a, b) = (&one.submission, &other.1.submission);
+fn join(all: Vec<Named<HandedIn>>) -> Vec<Named<HandedIn>> {
+    let mut joined: Vec<Named<HandedIn>> = Vec::new();
+    for (student, name, one) in all {
+        let fits = |other: &&mut Named<HandedIn>| {
+            let (a, b) = (&one.submission, &other.2.submission);
             student.is_some()
                 && student == other.0
                 && !(a.list.is_some() && b.list.is_some())
                 && !(a.picture.is_some() && b.picture.is_some())
                 && one.problem.is_none()
-                && other.1.problem.is_none()
+                && other.2.problem.is_none()
         };
         match joined.iter_mut().find(fits) {
-            Some((_, other)) => {
+            Some((_, _, other)) => {
                 let submission = &mut other.submission;
                 submission.list = submission.list.take().or(one.submission.list);
                 submission.picture = submission.picture.take().or(one.submission.picture);
                 other.notes.extend(one.notes);
             }
-            None => joined.push((student, one)),
+            None => joined.push((student, name, one)),
         }
     }
     joined
@@ -155,9 +197,10 @@ fn earlier(path: &Path) -> Result<BTreeMap<String, Before>, CliError> {
     let grades = match serde_json::from_str(&text) {
         Ok(Earlier::One(grade)) => vec![grade],
         Ok(Earlier::Several(grades)) => grades,
+        Ok(Earlier::Checked(checked)) => checked.into_iter().map(|one| one.grade).collect(),
         Err(_) => {
             let path = path.display();
-            let message = format!("{path}: expected the grades of grade --format json");
+            let message = format!("{path}: expected grades written with --format json");
             return Err(CliError::Argument(message));
         }
     };
@@ -168,6 +211,12 @@ impl Roll {
     /// Whether no name may be shown.
     pub fn is_anonymous(&self) -> bool {
         self.is_anonymous
+    }
+
+    /// Leaves out the submission `at`, which has no grade.
+    #[cfg(unix)]
+    pub fn leave_out(&mut self, at: usize) {
+        self.students.remove(at);
     }
 
     /// The names of those who handed in nothing.
@@ -201,31 +250,36 @@ impl Roll {
         text
     }
 
-    /// The grades as CSV: a row for each submission, and one for each student without any.
-    pub fn csv(&self, grades: &[&Grade], score_of_nothing: f64) -> String {
+    /// The grades as CSV: a row for each submission, and one for each student without any. The
+    /// columns `head` have the cells that `more` gives for the submission with this number.
+    pub fn csv(
+        &self,
+        grades: &[&Grade],
+        score_of_nothing: f64,
+        head: &[&str],
+        more: impl Fn(usize) -> Vec<String>,
+    ) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let head = ["name", "id", "email", "score", "verdict", "sections", "misreading", "remarks"];
-        let mut rows = vec![head.map(str::to_owned).to_vec()];
+        let columns = [&["name", "id", "email", "score", "verdict"], head].concat();
+        let mut rows = vec![columns.into_iter().map(str::to_owned).collect::<Vec<_>>()];
         let nobody = Student::default();
         for (at, grade) in grades.iter().enumerate() {
             let student = self.students.get(at).and_then(Option::as_ref).unwrap_or(&nobody);
             let student = if self.is_anonymous { &nobody } else { student };
-            let misreading = grade.misreading.unwrap_or_default().to_owned();
-            rows.push(vec![
+            let mut row = vec![
                 last_word(&grade.submission).to_owned(),
                 student.id.clone(),
                 student.email.clone(),
                 grade.score.to_string(),
                 verdict_in_words(grade.verdict).to_owned(),
-                grade.sections().join("; "),
-                misreading,
-                grade.remarks().join("; "),
-            ]);
+            ];
+            row.extend(more(at));
+            rows.push(row);
         }
         for Student { name, id, email } in &self.absent {
             let (score, verdict) = (score_of_nothing.to_string(), "nothing handed in".to_owned());
             let row = [name.clone(), id.clone(), email.clone(), score, verdict];
-            rows.push([row.to_vec(), vec![String::new(); 3]].concat());
+            rows.push([row.to_vec(), vec![String::new(); head.len()]].concat());
         }
         if !self.before.is_empty() {
             rows[0].extend(["score before", "verdict before"].map(str::to_owned));
@@ -252,7 +306,7 @@ fn json_name(grade: &Grade) -> String {
 }
 
 /// Spreadsheets run a cell that starts like a formula, and students choose the names of files.
-pub fn without_formula(cell: &str) -> String {
+fn without_formula(cell: &str) -> String {
     let is_formula = cell.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if is_formula && cell.parse::<f64>().is_err() { format!("'{cell}") } else { cell.to_owned() }
 }

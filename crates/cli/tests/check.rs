@@ -77,7 +77,7 @@ fn a_class_gets_a_page_each_and_an_index() {
     let bob = class.join("bob");
     let table = stdout(run_line("check {} --format csv", &[&bob]).success());
     assert_eq!(table.lines().count(), 2, "{table}");
-    assert!(table.contains("\"bob\",\"unreadable\",\"0\""), "{table}");
+    assert!(table.contains("\nbob,,,0,unreadable,"), "{table}");
     let results = json(run_line("check {} --format gradescope", &[&bob]).success());
     assert_eq!(results["score"], 0.0, "{results}");
     fails("check {} {} --format html", &[&bob, &bob], &["--out", "expected a folder"]);
@@ -159,6 +159,40 @@ fn fails_last(line: &str, paths: &[&Path], expected: &str) {
     let failed = run_line(line, paths).code(2);
     let errors = String::from_utf8_lossy(&failed.get_output().stderr).into_owned();
     assert!(errors.lines().last().is_some_and(|last| last.contains(expected)), "{errors}");
+}
+
+/// Folders without any file: what counts is whose they are.
+#[test]
+fn a_class_has_the_names_of_its_roster() {
+    let folder = folder();
+    let class = folder.path().join("class");
+    for name in ["poe_edgar", "=1+1", "jdoe"] {
+        fs::create_dir_all(class.join(name)).expect("a folder");
+    }
+    let roster = folder.path().join("roster.csv");
+    let text = "name,id,email\nJane Doe,7,jdoe@uni.edu\nEdgar Poe,8,\nAda Byron,9,\n";
+    fs::write(&roster, text).expect("a file");
+    let line = "check --class {} --roster {} --format csv";
+    let table = stdout(run_line(line, &[&class, &roster]).success());
+    let starts: Vec<_> = table.lines().map(|row| row.split(',').take(5).collect()).collect();
+    let expected: [&[&str]; 5] = [
+        &["name", "id", "email", "score", "verdict"],
+        &["Jane Doe", "7", "jdoe@uni.edu", "0", "unreadable"],
+        &["Edgar Poe", "8", "", "0", "unreadable"],
+        &["'=1+1", "", "", "0", "unreadable"],
+        &["Ada Byron", "9", "", "0", "nothing handed in"],
+    ];
+    assert_eq!(starts as Vec<Vec<&str>>, expected, "{table}");
+    let old = folder.path().join("old.json");
+    let line = "check --class {} --roster {} --format json --out {}";
+    run_line(line, &[&class, &roster, &old]).success();
+    let line = "check --class {} --roster {} --before {}";
+    let text = stdout(run_line(line, &[&class, &roster, &old]).success());
+    assert!(text.starts_with("Jane Doe: unreadable"), "{text}");
+    assert!(text.contains("\nchanged since the earlier grades: 0\n"), "{text}");
+    assert!(text.ends_with("\nhanded in nothing: Ada Byron\n"), "{text}");
+    let text = stdout(run_line("check --class {} --anonymous", &[&class]).success());
+    assert!(text.contains("submission 3: ") && !text.contains("doe"), "{text}");
 }
 
 #[test]

@@ -149,6 +149,9 @@ fn bad_arguments_are_refused() {
     fails("explain 1000000", &[], &["1000000", "expected a number below 1000000"]);
     fails("explain 10 --photons 10", &[], &["PHOTON 10", "below 10"]);
     fails("explain --until-stored 0", &[], &["--until-stored"]);
+    for line in ["explain abc", "explain -3", "explore --photon x", "explore --photon -1"] {
+        fails(line, &[], &["expected a whole number from 0"]);
+    }
     let line = "explain --until-stored 900 --photons 1000";
     fails(line, &[], &["--until-stored 900", "found none"]);
     fails("explain 1 --scene no.obj --light 0,0,1", &[], &["no.obj"]);

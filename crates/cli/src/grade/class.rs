@@ -151,7 +151,13 @@ impl Class<'_> {
                 texts.join("\n") + &self.students.text(grades)
             }
             (GradeFormat::Csv, grades) => {
-                self.students.csv(grades, self.settings.policy.unreadable)
+                let head = ["sections", "misreading", "remarks"];
+                let more = |at: usize| {
+                    let grade = grades[at];
+                    let misreading = grade.misreading.unwrap_or_default().to_owned();
+                    vec![grade.sections().join("; "), misreading, grade.remarks().join("; ")]
+                };
+                self.students.csv(grades, self.settings.policy.unreadable, &head, more)
             }
             (GradeFormat::Json, [grade]) if is_alone => json(grade),
             (GradeFormat::Json, grades) => json(&grades),

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod commands;
+mod computed;
 mod links;
 mod markdown;
 mod numbers;

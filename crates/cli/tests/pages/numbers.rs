@@ -36,25 +36,30 @@ fn csv(path: &str) -> Vec<BTreeMap<String, String>> {
     lines.map(|cells| heads.iter().cloned().zip(cells).collect()).collect()
 }
 
+/// Whether `number`, as a page shows it, is `value` rounded to the digits shown.
+pub fn is_rounded(number: &str, value: f64) -> bool {
+    let number = number.replace(',', "");
+    let (digits, power) = number.split_once('e').unwrap_or((&number, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let trailing = digits.len() - digits.trim_end_matches('0').len();
+    let last = if decimals > 0 { -(decimals as i32) } else { trailing as i32 };
+    let last = last + power.parse::<i32>().expect("a power of ten");
+    let shown: f64 = number.parse().expect("a number");
+    (shown - value).abs() <= 0.501 * 10_f64.powi(last)
+}
+
 /// Asserts that `text` starts with the numbers `values`, each rounded to the digits that it shows.
 fn assert_rounded(text: &str, values: &[f64]) {
     let text = text.replace(',', "");
     let is_part = |c: char| !c.is_ascii_digit() && c != '.';
     let found: Vec<_> = text.split(is_part).filter(|number| !number.is_empty()).collect();
     for (number, value) in found.iter().zip(values) {
-        let decimals = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        let trailing = number.len() - number.trim_end_matches('0').len();
-        let last = if decimals > 0 { -(decimals as i32) } else { trailing as i32 };
-        let shown: f64 = number.parse().expect("a number");
-        assert!(
-            (shown - value).abs() <= 0.501 * 10_f64.powi(last),
-            "{number} is not {value}: {text}"
-        );
+        assert!(is_rounded(number, *value), "{number} is not {value}: {text}");
     }
     assert!(found.len() >= values.len(), "expected {values:?}, found {text}");
 }
 
-fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
+pub fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
     let section = page.split("\n## ").find(|section| section.starts_with(heading));
     let lines = section.unwrap_or_else(|| panic!("no section {heading}")).lines();
     let rows = lines.filter(|line| line.starts_with('|')).skip(2);

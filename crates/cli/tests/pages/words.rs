@@ -1,10 +1,24 @@
 //! The wording of pages, and the width of their lines and of the code's.
 
 use crate::markdown::texts;
-use crate::{pages, project_files};
+use crate::{pages, project_files, read};
 
 const LONGEST_SENTENCE: usize = 30;
 const WIDEST_LINE: usize = 100;
+/// How many words a page may have, with its code and tables.
+const LONGEST_PAGES: [(&str, usize); 11] = [
+    ("README.md", 1300),
+    ("ASSIGNMENT.md", 2000),
+    ("CONTRIBUTING.md", 300),
+    ("docs/accuracy.md", 600),
+    ("docs/architecture.md", 600),
+    ("docs/comparing.md", 800),
+    ("docs/grading.md", 1200),
+    ("docs/large-runs.md", 600),
+    ("docs/numerics.md", 600),
+    ("docs/photon-lists.md", 600),
+    ("docs/speed.md", 600),
+];
 
 /// Words that the glossary replaces.
 const REPLACED_WORDS: [&str; 5] = ["sent out", "send out", "sends out", "looks on", "look on"];
@@ -38,6 +52,14 @@ fn sentences_are_short() {
         }
     }
     assert!(faults.is_empty(), "at most {LONGEST_SENTENCE} words:\n{faults}");
+}
+
+#[test]
+fn pages_are_short() {
+    for (path, most) in LONGEST_PAGES {
+        let words = read(path).split_whitespace().count();
+        assert!(words <= most, "{path}: {words} words, {most} at most");
+    }
 }
 
 #[test]
