@@ -252,9 +252,9 @@ struct OccluderFace<'a> {
 }
 
 impl OccluderFace<'_> {
-    /// Gives `found` every cell of the square of `edge` cells from row and column `start` on through
-    /// which a ray may meet some of `triangles`, with these. What a quarter does not meet, none of
-    /// its cells does.
+    /// Gives `found` every cell of the square of `edge` cells from row and column `start` on
+    /// through which a ray may meet some of `triangles`, with these. What a quarter does not meet,
+    /// none of its cells does.
     fn divide(
         &self,
         triangles: &[u32],

@@ -148,9 +148,11 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
             if emission.drawn[lane] == 0 {
                 // Of 2000 photons, one.
                 let EmittedPhoton { point, draws } = emit_one(seed, photons[lane]);
-                for column in 0..3 {
-                    emission.point[column][lane] = point[column];
-                    emission.next[column][lane] = draws.words[column];
+                for (column, coordinate) in emission.point.iter_mut().zip(point) {
+                    column[lane] = coordinate;
+                }
+                for (column, word) in emission.next.iter_mut().zip(draws.words) {
+                    column[lane] = word;
                 }
                 emission.drawn[lane] = draws.drawn;
                 emission.cell[lane] = rough_cell(Vec3::from_array(point));
@@ -222,9 +224,9 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
         hits.settle(&tracer.renderer.stored_scene, surfaces, self.light, waiting);
         let mut lanes = [0; first_hit::LANES];
         let mut reflected = 0;
-        for lane in 0..first_hit::LANES {
+        for (lane, (photon, reflection)) in queue.iter().zip(&hits.reflection).enumerate() {
             lanes[reflected % first_hit::LANES] = lane as u8;
-            let is_reflected = number(queue[lane].draws.words[0]) < hits.reflection[lane];
+            let is_reflected = number(photon.draws.words[0]) < *reflection;
             reflected += usize::from(is_reflected & (lane < waiting));
         }
         (self.done)(Stage::FirstHit, 0);

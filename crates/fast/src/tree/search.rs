@@ -56,7 +56,6 @@ struct Way<E> {
     origin: [f32; 3],
     sheared: ShearedRay,
     start_error: f32,
-    direction: [f32x8; 3],
     reciprocal: [f32x8; 3],
     /// The origin, moved by the slack so that boxes begin earlier.
     before: [f32x8; 3],
@@ -83,7 +82,6 @@ impl<E: Eight> Way<E> {
             origin: origin.to_array(),
             sheared: ShearedRay::new(ray),
             start_error: ray.start_error,
-            direction: [eight.splat_f32s(0.0); 3],
             reciprocal: [eight.splat_f32s(0.0); 3],
             before: [eight.splat_f32s(0.0); 3],
             behind: [eight.splat_f32s(0.0); 3],
@@ -99,7 +97,6 @@ impl<E: Eight> Way<E> {
             let is_backwards = direction[axis].is_sign_negative();
             let outwards = if is_backwards { -slack } else { slack };
             way.first[axis] = usize::from(is_backwards);
-            way.direction[axis] = eight.splat_f32s(direction[axis]);
             way.reciprocal[axis] = eight.splat_f32s(1.0 / direction[axis]);
             way.before[axis] = eight.splat_f32s(origin[axis] + outwards);
             way.behind[axis] = eight.splat_f32s(origin[axis] - outwards);
@@ -174,13 +171,6 @@ impl<E: Eight> Way<E> {
         let (ua, vb, wc) =
             (eight.mul_f32s(u, a[2]), eight.mul_f32s(v, b[2]), eight.mul_f32s(w, c[2]));
         let distances = eight.div_f32s(eight.add_f32s(eight.add_f32s(ua, vb), wc), determinant);
-        let facing = eight.add_f32s(
-            eight.add_f32s(
-                eight.mul_f32s(self.direction[0], cast(leaf[NORMALS])),
-                eight.mul_f32s(self.direction[1], cast(leaf[NORMALS + 1])),
-            ),
-            eight.mul_f32s(self.direction[2], cast(leaf[NORMALS + 2])),
-        );
         let is_ahead = eight.greater_than_f32s(distances, eight.splat_f32s(-self.start_error));
         let is_close = eight.less_than_or_equal_f32s(distances, eight.splat_f32s(self.closest));
         let within = eight.bits(is_ahead) & eight.bits(is_close);
@@ -189,7 +179,6 @@ impl<E: Eight> Way<E> {
             return;
         }
         let distances: [f32; WIDTH] = cast(distances);
-        let cosines: [f32; WIDTH] = cast(facing);
         while met != 0 {
             let lane = met.trailing_zeros() as usize % WIDTH;
             met &= met - 1;
@@ -204,11 +193,11 @@ impl<E: Eight> Way<E> {
             let index = leaf[INDICES][lane].to_bits();
             let triangle = &triangles[index as usize];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
-            if (t < self.closest || is_tie)
-                && self.sheared.reaches(cosines[lane], t)
-                && of(triangle, t)
-            {
-                (self.closest, self.index, self.is_front) = (t, index, cosines[lane] <= 0.0);
+            // Only of what is met, since the normals are lines of the cache of their own.
+            let cosine =
+                self.sheared.cosine(Vec3::from_array([0, 1, 2].map(|c| leaf[NORMALS + c][lane])));
+            if (t < self.closest || is_tie) && self.sheared.reaches(cosine, t) && of(triangle, t) {
+                (self.closest, self.index, self.is_front) = (t, index, cosine <= 0.0);
                 self.limit = t + 2.0 * self.slack;
             }
         }
