@@ -26,8 +26,8 @@ pub(crate) const LEAST_LIKELY_SLIP: f64 = 0.02;
 /// A correct submission is called incorrect on its way to one of the misreadings, each of which has
 /// a test, as often as this.
 pub(crate) const RATE_OF_WAYS: f64 = 2e-5;
-/// Before all are fitted into that, one of them has at least this: 5.6 standard deviations, which nothing that is
-/// farther away fails to reach.
+/// Before all are fitted into that, one of them has at least this: 5.6 standard deviations, which
+/// nothing that is farther away fails to reach.
 pub(crate) const LEAST_OF_WAY: f64 = 1e-8;
 /// Of the lists of a misreading that the best test of it alone finds, its test is to find this
 /// part: 0.95, and a little for what the best one knows besides, as which fair reading it is.

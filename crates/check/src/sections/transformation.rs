@@ -59,7 +59,8 @@ fn judge_frames(directions: &Directions, verdict: &mut SectionVerdict) {
         if not_finite > 0 {
             if sampling_is_finite {
                 let found = format!(
-                    "{not_finite} of {total} directions are not finite numbers where the normal is {}",
+                    "{not_finite} of {total} directions are not finite numbers where the normal \
+                     is {}",
                     short(*normal)
                 );
                 let (name, advice) = if is_along_x {
