@@ -11,7 +11,7 @@
 // layout of D. J. Bernstein, "ChaCha, a variant of Salsa20" (2008): a 64-bit block counter and a
 // 64-bit stream number, where the RFC has 32 and 96 bits. The key is the seed in little-endian
 // order, filled up with zeros; the stream is the photon's number. So photon i's numbers depend on
-// no other photon: order, threads and the draws of the neighbours do not matter.
+// no other photon: order, threads and the draws of the neighbors do not matter.
 
 #ifndef REFERENCE_RAND_HPP
 #define REFERENCE_RAND_HPP

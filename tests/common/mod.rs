@@ -31,7 +31,7 @@ pub fn light() -> PointLight {
 }
 
 /// A renderer of a closed cube from -1 to 1 whose walls all reflect `albedo`, with a light in its
-/// centre.
+/// center.
 pub fn closed_cube(albedo: f32, seed: u64, photon_count: u64) -> PhotonMappingRenderer {
     // Corners 0 to 7 of a model with y up, and its faces with their normals.
     let corner = |k: usize| {

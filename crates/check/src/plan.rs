@@ -12,11 +12,11 @@ pub const UNITS: f32 = 16_777_216.0;
 pub const INTENSITY: Vec3 = Vec3::new(1e-3, 2e-3, 3e-3);
 /// Where the light stands in the steps for Photon Emission.
 pub const LIGHT: Vec3 = Vec3::new(0.3, -0.2, 1.5);
-/// A direction that the emission may find at its second try, before it is normalised.
+/// A direction that the emission may find at its second try, before it is normalized.
 pub const SECOND_TRY: [f32; 3] = [0.25, -0.5, 0.125];
 /// The diffuse responses that tell one rule for P_r from another: every channel is the largest
 /// once, and one response is so dark that its sum is below 1.
-pub const COLOURS: [Vec3; 4] = [
+pub const COLORS: [Vec3; 4] = [
     Vec3::new(0.2, 0.5, 0.8),
     Vec3::new(0.8, 0.2, 0.5),
     Vec3::new(0.5, 0.8, 0.2),
@@ -52,15 +52,15 @@ pub enum PlanStep {
     Black,
     /// A floor that absorbs nothing.
     White,
-    /// A floor with one of the [`COLOURS`].
-    Colour(usize),
-    /// Closed grey cubes, from the light on.
-    GreyCube,
-    /// A grey floor; the first number drawn is 0.5 and this much more, in units of 2^-24.
+    /// A floor with one of the [`COLORS`].
+    Color(usize),
+    /// Closed gray cubes, from the light on.
+    GrayCube,
+    /// A gray floor; the first number drawn is 0.5 and this much more, in units of 2^-24.
     Threshold(i32),
-    /// A grey floor: directions around (0, 0, 1).
+    /// A gray floor: directions around (0, 0, 1).
     Floor,
-    /// A grey wall with this normal.
+    /// A gray wall with this normal.
     Wall(Vec3),
     /// The handout's scene.
     Whole,
@@ -104,11 +104,11 @@ pub fn steps() -> Vec<PlanStep> {
         PlanStep::GrowPath,
         PlanStep::Black,
         PlanStep::White,
-        PlanStep::Colour(0),
-        PlanStep::Colour(1),
-        PlanStep::Colour(2),
-        PlanStep::Colour(3),
-        PlanStep::GreyCube,
+        PlanStep::Color(0),
+        PlanStep::Color(1),
+        PlanStep::Color(2),
+        PlanStep::Color(3),
+        PlanStep::GrayCube,
         PlanStep::Threshold(-1024),
         PlanStep::Threshold(0),
         PlanStep::Threshold(1024),
@@ -169,14 +169,14 @@ pub fn rays(step: PlanStep) -> Vec<[Vec3; 2]> {
             let angle = i as f32 * 2.4;
             let slant = 0.1 + 0.05 * i as f32;
             let aside = slant * (libm::cosf(angle) * across + libm::sinf(angle) * along);
-            let start = CENTRE + 0.7 * normal + 0.3 * aside;
+            let start = CENTER + 0.7 * normal + 0.3 * aside;
             [start, (aside - normal).normalize()]
         })
         .collect()
 }
 
 /// The middle of walls and cubes.
-const CENTRE: Vec3 = Vec3::new(0.137, -0.211, 0.423);
+const CENTER: Vec3 = Vec3::new(0.137, -0.211, 0.423);
 
 fn trace(step: PlanStep, scene: usize) -> String {
     let (calls, path, remaining) = match step {
@@ -188,7 +188,7 @@ fn trace(step: PlanStep, scene: usize) -> String {
         PlanStep::Black | PlanStep::White => (400, 1, FAR),
         PlanStep::Threshold(_) => (1, 1, FAR),
         // Half of the paths end at every hit, unless there is no roulette.
-        PlanStep::GreyCube => (2000, 1, 50),
+        PlanStep::GrayCube => (2000, 1, 50),
         PlanStep::Floor => (2 * CALLS, 1, FAR),
         _ => (CALLS, 1, FAR),
     };
@@ -219,9 +219,9 @@ fn add_scene(step: PlanStep, file: &mut String) {
             wall(file, Vec3::Z, Vec3::ZERO)
         }
         PlanStep::Remaining(_) | PlanStep::GrowPath => cubes(file, Vec3::ONE),
-        PlanStep::GreyCube => cubes(file, Vec3::splat(0.5)),
+        PlanStep::GrayCube => cubes(file, Vec3::splat(0.5)),
         PlanStep::White => wall(file, Vec3::Z, Vec3::ONE),
-        PlanStep::Colour(index) => wall(file, Vec3::Z, COLOURS[index]),
+        PlanStep::Color(index) => wall(file, Vec3::Z, COLORS[index]),
         PlanStep::Threshold(_) | PlanStep::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
         PlanStep::Wall(normal) => wall(file, normal, Vec3::splat(0.5)),
         PlanStep::Whole => handout(file),
@@ -247,7 +247,7 @@ fn handout(file: &mut String) {
 
 fn wall(file: &mut String, normal: Vec3, diffuse: Vec3) {
     line(file, &format!("object wall{}", vector_text(diffuse)));
-    square(file, CENTRE, normal, 2.0);
+    square(file, CENTER, normal, 2.0);
 }
 
 /// A small cube within a closed one; photons fly between them. Those that scatter below the small
@@ -256,17 +256,17 @@ fn cubes(file: &mut String, diffuse: Vec3) {
     line(file, &format!("object cubes{}", vector_text(diffuse)));
     for (half, outward) in [(0.5, 1.0), (1.0, -1.0)] {
         for normal in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [axis, -axis]) {
-            square(file, CENTRE + half * outward * normal, normal, half);
+            square(file, CENTER + half * outward * normal, normal, half);
         }
     }
 }
 
-/// A square around `centre` with edges of twice `half`.
-fn square(file: &mut String, centre: Vec3, normal: Vec3, half: f32) {
+/// A square around `center` with edges of twice `half`.
+fn square(file: &mut String, center: Vec3, normal: Vec3, half: f32) {
     let across = half * square_axis(normal);
     let along = normal.cross(across);
     let corners = [-across - along, across - along, across + along, along - across]
-        .map(|corner| centre + corner);
+        .map(|corner| center + corner);
     triangle_line(file, [corners[0], corners[1], corners[2]], normal);
     triangle_line(file, [corners[0], corners[2], corners[3]], normal);
 }

@@ -32,7 +32,7 @@ pub fn light(text: &str) -> Result<ModelLight, String> {
         .map(|number| number.trim().parse().ok().filter(|number: &f64| number.abs() <= 1e9))
         .collect();
     let is_color = |color: &[f64]| {
-        // Darker than this, the length of the colour is zero in f32.
+        // Darker than this, the length of the color is zero in f32.
         let shines = |channel: &f64| *channel > 1e-18;
         color.iter().all(|channel| *channel >= 0.0) && color.iter().any(shines)
     };

@@ -426,7 +426,7 @@ fn interrupt_leaves_no_half_file() {
 }
 
 #[test]
-fn sobol_sampler_is_a_labelled_extra() {
+fn sobol_sampler_is_a_labeled_extra() {
     let folder = folder();
     let render = |more: &[&str]| {
         let mut arguments = vec!["render", "--photons", "20000", "--size", "8x6", "--json"];

@@ -15,7 +15,7 @@ use grading::picture::dot_size::DotSize;
 use grading::picture::dots::{FoundDots, find_dots};
 use grading::picture::expectations::PictureExpectations;
 use grading::picture::expected::expect;
-use grading::picture::judge::{PictureJudgement, judge_dots};
+use grading::picture::judge::{PictureJudgment, judge_dots};
 use grading::picture::reading::read_picture;
 use grading::picture::signature::measure;
 use grading::picture::view::{PIXELS, View};
@@ -42,13 +42,13 @@ fn simulate(variation: Variation, seed: u64, emitted: u64, standoff: f32) -> Vec
     simulate_dots(variation, seed, emitted, standoff, &all.places, &all.view)
 }
 
-fn judge(red: &[bool], emitted: Option<u64>) -> PictureJudgement {
+fn judge(red: &[bool], emitted: Option<u64>) -> PictureJudgment {
     let all = expectations();
     judge_dots(red, &all.view, emitted.map(|emitted| emitted as f64), all)
 }
 
-fn named(judgement: &PictureJudgement) -> Option<&'static str> {
-    judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+fn named(judgment: &PictureJudgment) -> Option<&'static str> {
+    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
 
 /// The direct light of `view`, with `dot` done to the pixels of `red`.
@@ -84,13 +84,9 @@ fn pictures_of_fair_readings_are_correct() {
     for (seed, reading) in fair_readings().iter().enumerate() {
         let red = simulate(reading.variation, 500 + seed as u64, MILLION, 0.0);
         for emitted in [Some(MILLION), None] {
-            let judgement = judge(&red, emitted);
-            let p_value = judgement.p_value.expect("it was tested");
-            assert!(
-                !judgement.is_incorrect() && p_value > 1e-4,
-                "{}: {judgement:?}",
-                reading.title
-            );
+            let judgment = judge(&red, emitted);
+            let p_value = judgment.p_value.expect("it was tested");
+            assert!(!judgment.is_incorrect() && p_value > 1e-4, "{}: {judgment:?}", reading.title);
         }
         let fitted = judge(&red, None).emitted.expect("it was fitted");
         assert!((fitted / MILLION as f64 - 1.0).abs() < 0.05, "{}: {fitted}", reading.title);
@@ -148,14 +144,14 @@ fn misreadings_are_incorrect_and_named() {
     for id in ["uniform-hemisphere", "mean-roulette", "no-offset", "direct-stored"] {
         let hypothesis = misread(id, 3).expect("it is known");
         let red = simulate(hypothesis.variation, 33, MILLION, 0.0);
-        let judgement = judge(&red, Some(MILLION));
-        assert!(judgement.is_incorrect(), "{id}: {judgement:?}");
-        assert_eq!(named(&judgement), Some(id), "{judgement:?}");
+        let judgment = judge(&red, Some(MILLION));
+        assert!(judgment.is_incorrect(), "{id}: {judgment:?}");
+        assert_eq!(named(&judgment), Some(id), "{judgment:?}");
     }
     let hypothesis = misread("no-absolute-value", 0).expect("it is known");
-    let judgement = judge(&simulate(hypothesis.variation, 34, MILLION, 0.0), None);
-    assert!(judgement.is_incorrect(), "{judgement:?}");
-    assert_eq!(named(&judgement), Some("no-absolute-value"), "{judgement:?}");
+    let judgment = judge(&simulate(hypothesis.variation, 34, MILLION, 0.0), None);
+    assert!(judgment.is_incorrect(), "{judgment:?}");
+    assert_eq!(named(&judgment), Some("no-absolute-value"), "{judgment:?}");
 }
 
 #[test]
@@ -164,21 +160,21 @@ fn another_mistake_is_incorrect_and_is_not_named() {
     let mut red = simulate(Variation::default(), 35, MILLION, 0.0);
     red.iter_mut().enumerate().filter(|(pixel, _)| pixel % 640 < 320).for_each(|(_, r)| *r = false);
     for emitted in [Some(MILLION), None] {
-        let judgement = judge(&red, emitted);
-        assert!(judgement.is_incorrect(), "{judgement:?}");
-        assert_eq!(named(&judgement), None, "{judgement:?}");
+        let judgment = judge(&red, emitted);
+        assert!(judgment.is_incorrect(), "{judgment:?}");
+        assert_eq!(named(&judgment), None, "{judgment:?}");
     }
 }
 
 #[test]
 fn a_picture_that_is_red_all_over_is_the_nan_of_the_frame() {
     let red: Vec<bool> = (0..PIXELS).map(|at| expectations().view.shows_surface(at)).collect();
-    let judgement = judge(&red, None);
-    assert!(judgement.is_incorrect());
-    assert_eq!(named(&judgement), Some("nan-frame"));
+    let judgment = judge(&red, None);
+    assert!(judgment.is_incorrect());
+    assert_eq!(named(&judgment), Some("nan-frame"));
     // With four billion photons a right picture is red all over, too.
-    let judgement = judge(&red, Some(4_000_000_000));
-    assert!(!judgement.is_incorrect(), "{judgement:?}");
+    let judgment = judge(&red, Some(4_000_000_000));
+    assert!(!judgment.is_incorrect(), "{judgment:?}");
 
     let folder = folder();
     let picture = folder.path().join("red.png");
@@ -207,8 +203,8 @@ fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
     // others.
     for seed in [70_085, 70_115, 70_328] {
         let red = simulate(Variation::default(), seed, 30_000, 2.9e-3);
-        let judgement = judge(&red, Some(30_000));
-        assert!(!judgement.is_incorrect(), "{seed}: {judgement:?}");
+        let judgment = judge(&red, Some(30_000));
+        assert!(!judgment.is_incorrect(), "{seed}: {judgment:?}");
     }
     let fair = fair_readings();
     let of_literal = |standoff| (fair[1].variation, standoff, true);
@@ -221,9 +217,9 @@ fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
     ] {
         let red = simulate(variation, 36, MILLION, standoff);
         for emitted in [Some(MILLION), None] {
-            let judgement = judge(&red, emitted);
-            assert_eq!(judgement.has_dots, has_dots, "{standoff}: {judgement:?}");
-            assert!(!judgement.is_incorrect(), "{standoff}: {judgement:?}");
+            let judgment = judge(&red, emitted);
+            assert_eq!(judgment.has_dots, has_dots, "{standoff}: {judgment:?}");
+            assert!(!judgment.is_incorrect(), "{standoff}: {judgment:?}");
         }
     }
 }
@@ -365,16 +361,16 @@ fn two_misreadings_at_once_are_not_one() {
     for (at, variation) in cases.into_iter().enumerate() {
         let red = simulate(variation, 90, MILLION, 0.0);
         for emitted in [Some(MILLION), None] {
-            let judgement = judge(&red, emitted);
-            assert!(judgement.is_incorrect(), "{at}: {judgement:?}");
-            assert_eq!(named(&judgement), None, "{at}: {judgement:?}");
+            let judgment = judge(&red, emitted);
+            assert!(judgment.is_incorrect(), "{at}: {judgment:?}");
+            assert_eq!(named(&judgment), None, "{at}: {judgment:?}");
         }
     }
     // Where no other pair does as well, both are told.
     let both = Variation { hemisphere: Hemisphere::NoSquareRoot, ..roulette(Roulette::Mean) };
-    let judgement = judge(&simulate(both, 90, MILLION, 0.0), Some(MILLION));
+    let judgment = judge(&simulate(both, 90, MILLION, 0.0), Some(MILLION));
     let advice =
-        judgement.findings.iter().find(|finding| finding.is_fault()).unwrap().advice.clone();
+        judgment.findings.iter().find(|finding| finding.is_fault()).unwrap().advice.clone();
     assert!(advice.contains("r is u1") && advice.contains("the mean of"), "{advice}");
 }
 
@@ -382,9 +378,9 @@ fn two_misreadings_at_once_are_not_one() {
 fn what_hides_behind_a_misreading_shows_in_the_number() {
     let of_number = |emitted| {
         let variation = Variation { roulette: Roulette::Red, ..Variation::default() };
-        let judgement = judge(&simulate(variation, 91, emitted, 0.0), None);
-        assert_eq!(named(&judgement), Some("red-roulette"), "{judgement:?}");
-        let finding = judgement.findings.iter().find(|finding| finding.check == "photons emitted");
+        let judgment = judge(&simulate(variation, 91, emitted, 0.0), None);
+        assert_eq!(named(&judgment), Some("red-roulette"), "{judgment:?}");
+        let finding = judgment.findings.iter().find(|finding| finding.check == "photons emitted");
         finding.expect("the number is told").passed
     };
     assert!(of_number(MILLION));
@@ -399,8 +395,8 @@ fn a_camera_half_a_pixel_off_is_remarked() {
     let dots = dots_of(&paint(view, &red, framework_dot)).expect("dots are found");
     assert!(dots.is_shifted && dots.red == red);
     assert_eq!(dots.remarks[0].check, "camera");
-    let judgement = judge_dots(&dots.red, view, Some(MILLION as f64), all);
-    assert!(!judgement.is_incorrect(), "{judgement:?}");
+    let judgment = judge_dots(&dots.red, view, Some(MILLION as f64), all);
+    assert!(!judgment.is_incorrect(), "{judgment:?}");
 }
 
 #[test]
@@ -429,8 +425,8 @@ fn what_blurs_dots_is_reported_and_not_graded() {
 #[test]
 fn red_that_is_no_dot_is_no_dot() {
     let all = expectations();
-    let judgement = judge(&dots_of(&all.view.direct).expect("it is the view").red, None);
-    assert!(!judgement.has_dots);
+    let judgment = judge(&dots_of(&all.view.direct).expect("it is the view").red, None);
+    assert!(!judgment.has_dots);
     // Red only where the picture shows nothing.
     let mut background = all.view.direct.clone();
     for (at, pixel) in background.pixels_mut().enumerate() {
@@ -573,7 +569,7 @@ fn a_picture_is_known_by_its_bytes() {
         assert_eq!(grade["verdict"], "unreadable");
         assert!(found(&grade).contains("JPEG"), "{grade}");
     }
-    // Other ways to write the same colours are read.
+    // Other ways to write the same colors are read.
     for (name, same) in [
         ("deep.png", DynamicImage::ImageRgb16(DynamicImage::from(picture.clone()).to_rgb16())),
         ("alpha.png", DynamicImage::ImageRgba8(DynamicImage::from(picture.clone()).to_rgba8())),
@@ -616,7 +612,7 @@ fn hostile_pictures_are_unreadable_soon() {
         picture.write_to(&mut bytes, image::ImageFormat::Png).expect("it is written");
         bytes.into_inner()
     };
-    let grey = DynamicImage::from(expectations().view.direct.clone()).to_luma8();
+    let gray = DynamicImage::from(expectations().view.direct.clone()).to_luma8();
     let control = [0_u8, 0, 0, 2, 0, 0, 0, 0];
     let animated = [&good[..33], &chunk(b"acTL", &control), &good[33..]].concat();
     let huge = png(&[(b"IHDR", &header(100_000, 100_000, 8, 2)), (b"IDAT", &[0; 99])]);
@@ -628,7 +624,7 @@ fn hostile_pictures_are_unreadable_soon() {
         ("cut", good[..good.len() / 2].to_vec(), "broken"),
         ("start", good[..12].to_vec(), "ends too early"),
         ("animated", animated, "animated"),
-        ("gray", encode(grey.into()), "gray"),
+        ("gray", encode(gray.into()), "gray"),
         ("transparent", encode(transparent.into()), "transparent"),
         ("indexed", indexed, "broken"),
         ("large", large, "more than 4 MB"),

@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use support::{
-    csv, folder, grades, mkfifo, program, reference_csv, remarks, run_line, stderr, write,
+    csv, folder, grades, mkfifo, program, reference_csv, remarks, run_line, stderr, stdout, write,
 };
 
 /// A class in which half of all submissions attack.
@@ -309,5 +309,17 @@ fn a_submission_that_links_to_anothers_is_a_twin() {
         assert_eq!(twins(&[&amy, &bob]), [true, true], "{name}");
         assert_eq!(twins(&[&amy, &at("bob/../amy").join(name)]), [true, true], "{name}");
         assert_eq!(twins(&[&amy, &amy]), [false, false], "{name}: named twice");
+    }
+}
+
+/// A photon or a few, invented or true, decide nothing.
+#[test]
+fn a_few_photons_get_no_points() {
+    let folder = folder();
+    for list in ["x,y,z\n1,1,1\n", "x,y,z\n0.5,0.2,0\n", "x,y,z\n-1,-1,0\n1,0.5,1\n"] {
+        let path = folder.path().join("photons.csv");
+        write(path.clone(), list);
+        let text = stdout(run_line("grade {}", &[&path]).success());
+        assert!(text.contains("undecided, needs a look, 0 of 4 points"), "{text}");
     }
 }

@@ -19,7 +19,7 @@ use variants::section::Section;
 const WITNESSES: usize = 1000;
 /// So many emitted photons between two records are asked whether a record is theirs; about one in
 /// thirty stores any.
-const MOST_NEIGHBOURS: u64 = 500;
+const MOST_NEIGHBORS: u64 = 500;
 
 /// Where two lists part first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -218,7 +218,7 @@ impl Lists<'_> {
         };
         let before = self.pairings[..at].iter().rev().find_map(photon_of).unwrap_or(0);
         let after = self.pairings[at..].iter().find_map(photon_of);
-        let after = after.unwrap_or(before + MOST_NEIGHBOURS).min(before + MOST_NEIGHBOURS);
+        let after = after.unwrap_or(before + MOST_NEIGHBORS).min(before + MOST_NEIGHBORS);
         (before..=after).filter_map(|photon| known.story(photon)).find_map(|story| {
             (1..=story.hits.len()).find_map(|bounce| {
                 let verdict = judge(&self.observation(extra, &story, bounce, false, known));

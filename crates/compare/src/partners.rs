@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn copies_in_any_order_and_neighbours_in_a_row_find_each_other() {
+    fn copies_in_any_order_and_neighbors_in_a_row_find_each_other() {
         let tolerance = 1e-3;
         let are_all_paired = |one: &[Vec3], other: &[Vec3]| {
             !partners(&PositionIndex::new(one, tolerance), other).contains(&ALONE)

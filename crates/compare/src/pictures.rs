@@ -64,7 +64,7 @@ pub fn compare_pictures(
         if (a[0] == RED_OF_DOT) == (b[0] == RED_OF_DOT) {
             largest_besides_dots = largest_besides_dots.max(steps);
         }
-        let grey = ((u16::from(a[1]) + u16::from(a[2])) / 5) as u8;
+        let gray = ((u16::from(a[1]) + u16::from(a[2])) / 5) as u8;
         *shown = match (a[0] == RED_OF_DOT, b[0] == RED_OF_DOT) {
             (true, false) => {
                 missing += 1;
@@ -76,7 +76,7 @@ pub fn compare_pictures(
             }
             _ if steps > 1 => Rgb([255, 255, 0]),
             (true, true) => MATCHING,
-            (false, false) => Rgb([grey; 3]),
+            (false, false) => Rgb([gray; 3]),
         };
     }
     report.outcome = match largest {

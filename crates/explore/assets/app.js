@@ -14,7 +14,7 @@ const BOUNCE_LOOKS =
 const RED = ["red", "circle"];
 const KINDS = ["matched", "missing", "moved", "extra"];
 const KIND_LOOKS = {
-  matched: ["grey", "circle"],
+  matched: ["gray", "circle"],
   missing: ["missing", "ring"],
   moved: ["moved", "diamond"],
   extra: ["extra", "cross"],

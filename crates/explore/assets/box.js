@@ -103,7 +103,7 @@ const boxMethods = {
     }
     const marks = hits.map((hit, i) => ({
       at: hit.position,
-      color: i <= reached ? "path" : "grey",
+      color: i <= reached ? "path" : "gray",
       shape: hit.stored ? "circle" : "ring",
     }));
     if (isEmission) {

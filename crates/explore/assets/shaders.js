@@ -2,7 +2,7 @@
 
 /** The names of all colors, in the order of the shader's palette. The style sheet has values. */
 const COLORS =
-  "grey one two three four red missing extra moved path light ink t b n edge".split(" ");
+  "gray one two three four red missing extra moved path light ink t b n edge".split(" ");
 /** The shapes of dots, in the order of the shader's cases. */
 const SHAPES = ["circle", "square", "diamond", "triangle", "ring", "cross"];
 /** A color and a shape as the first number of a dot's look. */

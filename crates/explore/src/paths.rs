@@ -199,7 +199,7 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
     }
 }
 
-/// Whether the direction in which a photon leaves is its last try, normalised.
+/// Whether the direction in which a photon leaves is its last try, normalized.
 fn emission_follows(story: &Story) -> bool {
     let last = story.emission.tries.last().copied().unwrap_or_default();
     let [x, y, z] = last;

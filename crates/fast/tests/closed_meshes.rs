@@ -218,7 +218,7 @@ proptest! {
             let mut rand = photon_random(seed ^ 1, number);
             let triangle = &triangles[number as usize % triangles.len()];
             let [a, b, c] = triangle.vertices;
-            // The mesh can be seen whole from its centre, so these points are inside.
+            // The mesh can be seen whole from its center, so these points are inside.
             let on_surface = triangles[(rand() * triangles.len() as f32) as usize].vertices;
             let from = on_surface[0].lerp(on_surface[1], rand()).lerp(on_surface[2], rand());
             let from = from * 0.95 * rand();

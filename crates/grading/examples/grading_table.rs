@@ -9,7 +9,7 @@ mod limit;
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};
-use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
+use grading::judge_list::{Expectations, Judgment, SIGNIFICANCE, judge};
 use grading::observation::observe;
 use grading::places::{Place, Places};
 use grading::signature::Signatures;
@@ -132,7 +132,7 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
     let emitted = settings.between(low, high) as u64;
     let reading = Reading {
         tangent_basis: settings
-            .one_of(&[TangentBasis::Normalised, TangentBasis::LetterOfTheHandout]),
+            .one_of(&[TangentBasis::Normalized, TangentBasis::LetterOfTheHandout]),
         fallback_threshold: settings
             .one_of(&[0.99, 0.999, 0.95, 0.9, 0.8, 0.957, 0.9545, 0.5, 0.2]),
         fallback_axis: settings.one_of(&[Vec3::Y, Vec3::Z]),
@@ -162,10 +162,10 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
     let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
     shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
     let content = settings.one_of(&CONTENTS);
-    let judgement = judged(records, emitted, content, expectations);
-    let p_values = judgement.findings.iter().filter(|finding| finding.check != "bounces");
+    let judgment = judged(records, emitted, content, expectations);
+    let p_values = judgment.findings.iter().filter(|finding| finding.check != "bounces");
     let smallest = p_values.filter_map(|finding| finding.p_value).fold(1.0, f64::min);
-    let alarm = judgement.findings.iter().find(|finding| finding.is_fault());
+    let alarm = judgment.findings.iter().find(|finding| finding.is_fault());
     if let Some(alarm) = alarm {
         eprintln!("false alarm {index}: {emitted} {content:?} {off} {reading:?}: {alarm:?}");
     }
@@ -263,7 +263,7 @@ fn judged(
     emitted: u64,
     content: Content,
     expectations: &Expectations,
-) -> Judgement {
+) -> Judgment {
     let has_all = content == Content::Everything;
     let columns = Columns {
         intensity: has_all,
@@ -409,13 +409,13 @@ fn two_at_once(seeds: u64, expectations: &Expectations) {
         let tell = |seed: u64| {
             let pair = &pairs[seed as usize % pairs.len()];
             let simulation = Simulation::new(pair.variation, 11_000_000 + seed, EMITTED, 1000);
-            let judgement = judged(simulation.trace(0..EMITTED), EMITTED, content, expectations);
-            let is_correct = !judgement.findings.iter().any(|finding| finding.is_fault());
+            let judgment = judged(simulation.trace(0..EMITTED), EMITTED, content, expectations);
+            let is_correct = !judgment.findings.iter().any(|finding| finding.is_fault());
             let is_of = |id: &str| {
                 let ways = singles.iter().filter(|single| single.id == id);
                 ways.map(|way| &way.title).any(|title| pair.title.contains(title))
             };
-            match (judgement.explanation, judgement.pair) {
+            match (judgment.explanation, judgment.pair) {
                 _ if is_correct => 0,
                 (None, None) => 1,
                 (None, Some(told)) if pair.title.contains(&told.hypothesis.title) => 2,
@@ -439,11 +439,11 @@ const EMITTED: u64 = 200_000;
 /// With so few bounces allowed, one fewer shows.
 const SMALL_LIMIT: i32 = 3;
 
-fn outcome(judgement: &Judgement) -> Outcome {
-    if !judgement.findings.iter().any(|finding| finding.is_fault()) {
+fn outcome(judgment: &Judgment) -> Outcome {
+    if !judgment.findings.iter().any(|finding| finding.is_fault()) {
         return Outcome::Correct;
     }
-    match &judgement.explanation {
+    match &judgment.explanation {
         Some(explanation) => Outcome::Named(explanation.hypothesis.id),
         None => Outcome::Unnamed,
     }

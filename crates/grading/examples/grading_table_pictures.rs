@@ -13,7 +13,7 @@ use std::ops::Range;
 
 use grading::picture::expectations::PictureExpectations;
 use grading::picture::expected::expect;
-use grading::picture::judge::{PictureJudgement, judge_dots};
+use grading::picture::judge::{PictureJudgment, judge_dots};
 use grading::places::Places;
 use limit::best_test;
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
@@ -153,10 +153,10 @@ fn detect(
     let judged: Vec<_> = seeds.into_par_iter().map(judge).collect();
     [0, 1].map(|which| {
         let mut row = Row::default();
-        for judgement in judged.iter().map(|pair| &pair[which]) {
+        for judgment in judged.iter().map(|pair| &pair[which]) {
             row.pictures += 1;
-            row.incorrect += usize::from(judgement.is_incorrect());
-            if let Some(explanation) = &judgement.explanation {
+            row.incorrect += usize::from(judgment.is_incorrect());
+            if let Some(explanation) = &judgment.explanation {
                 *row.named.entry(explanation.hypothesis.id).or_default() += 1;
             }
         }
@@ -200,11 +200,11 @@ fn false_alarms(
     let first = seeds.start;
     let judged: Vec<_> = seeds.into_par_iter().map(judge).collect();
     let mut alarms = FalseAlarms { smallest: 1.0, ..FalseAlarms::default() };
-    for (seed, judgements) in (first..).zip(judged) {
+    for (seed, judgments) in (first..).zip(judged) {
         alarms.pictures += 1;
-        alarms.incorrect += usize::from(judgements.iter().any(PictureJudgement::is_incorrect));
-        alarms.no_dots += usize::from(!judgements[0].has_dots);
-        for p_value in judgements.iter().filter_map(|judgement| judgement.p_value) {
+        alarms.incorrect += usize::from(judgments.iter().any(PictureJudgment::is_incorrect));
+        alarms.no_dots += usize::from(!judgments[0].has_dots);
+        for p_value in judgments.iter().filter_map(|judgment| judgment.p_value) {
             if p_value < alarms.smallest {
                 (alarms.smallest, alarms.of_seed) = (p_value, seed);
             }

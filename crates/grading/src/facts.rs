@@ -140,6 +140,9 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     findings
 }
 
+/// The check of how many photons there are: a list that fails it alone is not decided.
+pub const ENOUGH_PHOTONS: &str = "enough photons";
+
 /// Whether the list is long enough to be what the handout asks for. Only where it `is_fair`, it is
 /// told how many photons fit it.
 pub fn enough(
@@ -157,7 +160,7 @@ pub fn enough(
         _ => format!("{} photons", thousands(observation.records)),
     };
     let finding = Finding::new(
-        "enough photons",
+        ENOUGH_PHOTONS,
         format!("the photons of at least {} emitted", rounded(FEW_EMITTED)),
         found,
         "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \

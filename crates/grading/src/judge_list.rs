@@ -1,4 +1,4 @@
-//! The judgement of a photon list.
+//! The judgment of a photon list.
 
 use std::borrow::Cow;
 use std::sync::OnceLock;
@@ -25,7 +25,7 @@ use variants::hypotheses::Hypothesis;
 
 /// What the photons of a list say.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judgement {
+pub struct Judgment {
     /// The findings.
     pub findings: Vec<Finding>,
     /// The misreading, if a known one explains them.
@@ -94,7 +94,7 @@ pub fn judge(
     emitted: Option<f64>,
     emitted_by_user: bool,
     expectations: &Expectations,
-) -> Judgement {
+) -> Judgment {
     let list = OfList { observation, emitted, expectations };
     let mut findings = plain_findings(observation, &expectations.places);
     let mut trial = best_trial(&list);
@@ -151,7 +151,7 @@ pub fn judge(
     let is_strange = is_strange || findings.iter().any(Finding::is_fault);
     findings.extend(of_bounces.into_iter().filter(|finding| is_other(&finding) || !is_strange));
     findings.extend(of_columns);
-    Judgement { findings, explanation, pair, reading, signature, emitted: trial.emitted }
+    Judgment { findings, explanation, pair, reading, signature, emitted: trial.emitted }
 }
 
 /// What is to be done where a plain fault is told before, and no misreading explains the counts.

@@ -112,8 +112,8 @@ pub(crate) const LEAST_EMITTED: f64 = 250.0;
 
 /// Photons closer together than this lie at the same place: self-hits do, and hardly any others.
 pub(crate) const SAME_PLACE: f64 = 2e-5;
-/// How many neighbours are looked at before a photon counts as alone.
-pub(crate) const MOST_NEIGHBOURS: usize = 256;
+/// How many neighbors are looked at before a photon counts as alone.
+pub(crate) const MOST_NEIGHBORS: usize = 256;
 /// Rounding brings a hit no farther than this from the hit it repeats: four units in the last place
 /// of an f32 between 1 and 2. Rays that start 1e-5 above a surface and go below it come back
 /// farther away.
@@ -224,7 +224,7 @@ pub(crate) mod exact {
 
 /// What lists say of themselves.
 pub(crate) mod observation {
-    /// An intensity whose inverse is less is none of so many photons, but a colour left as it is,
+    /// An intensity whose inverse is less is none of so many photons, but a color left as it is,
     /// perhaps times a constant.
     pub(crate) const LEAST_NUMBER: f64 = 100.0;
     /// In a list with fewer decimals than this, photons lie at the same place by rounding alone:

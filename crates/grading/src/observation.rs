@@ -208,7 +208,7 @@ fn gaps(records: &[PhotonRecord]) -> [u64; 2] {
     [later.count() as u64, without.count() as u64]
 }
 
-/// The intensity is the light's colour, which is white, divided by the photons it emits.
+/// The intensity is the light's color, which is white, divided by the photons it emits.
 fn emitted_by_intensity(records: &[PhotonRecord]) -> Option<f64> {
     let first = f64::from(records.first()?.intensity.x);
     let is_like_first = |intensity: Vec3| {

@@ -1,6 +1,6 @@
 //! Photons that lie where another one does.
 
-use super::limits::{BY_ROUNDING, FEW_PLACES, MOST_NEIGHBOURS, SAME_PLACE};
+use super::limits::{BY_ROUNDING, FEW_PLACES, MOST_NEIGHBORS, SAME_PLACE};
 use super::places::Place;
 use glam::DVec3;
 use photon_mapping::photon_list::PhotonRecord;
@@ -75,7 +75,7 @@ pub(super) fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat
     sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let mut repeats = vec![Repeat::No; records.len()];
     for (at, (along, index)) in sweep.iter().enumerate() {
-        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBOURS);
+        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBORS);
         let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
         let distance = |other: u32| position(other).distance_squared(position(*index));
         let closest = near.map(|other| distance(other.1)).reduce(f64::min);

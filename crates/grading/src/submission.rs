@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::axes;
 use super::exact::exact_comparison;
-use super::judge_list::{Expectations, Judgement, judge};
+use super::facts::ENOUGH_PHOTONS;
+use super::judge_list::{Expectations, Judgment, judge};
 use super::limits::FEW_EMITTED;
 use super::naming::Explanation;
 use super::observation::observe;
@@ -55,7 +56,7 @@ pub struct Graded {
     /// The grade.
     pub grade: Grade,
     /// The list, if it could be read, with what was concluded from it.
-    pub list: Option<(PhotonList, Judgement)>,
+    pub list: Option<(PhotonList, Judgment)>,
     /// What tells its photons from others'.
     pub fingerprint: Option<Fingerprint>,
     /// Whether a file could not be read, which may be over soon.
@@ -138,7 +139,7 @@ pub fn grade_at_most(
     if let Some(picture) = &submission.picture {
         let emitted = settings.emitted.map(|emitted| emitted as f64);
         let findings = match judge_picture(picture, emitted, expectations.pictures()) {
-            Ok(judgement) => judgement.findings,
+            Ok(judgment) => judgment.findings,
             Err(reason) => vec![not_readable(&reason)],
         };
         // The list says the same more exactly, so it alone decides.
@@ -205,23 +206,25 @@ fn grade_picture(
         return not_read(submission, settings, &error);
     }
     let emitted = settings.emitted.map(|emitted| emitted as f64);
-    let judgement = match judge_picture(picture, emitted, expectations.pictures()) {
-        Ok(judgement) => judgement,
+    let judgment = match judge_picture(picture, emitted, expectations.pictures()) {
+        Ok(judgment) => judgment,
         Err(reason) => return unreadable(submission, settings, &reason),
     };
     if expectations.signatures.max_bounces == 0 {
-        let found = if judgement.has_dots { "dots" } else { "no dot" };
-        return without_bounces(submission, settings, None, found, !judgement.has_dots);
+        let found = if judgment.has_dots { "dots" } else { "no dot" };
+        return without_bounces(submission, settings, None, found, !judgment.has_dots);
     }
-    let verdict = match judgement.findings.iter().any(Finding::is_fault) {
-        false => Verdict::Correct,
-        true if judgement.has_dots => Verdict::Incorrect,
-        true => Verdict::NoDots,
+    let mut faults = judgment.findings.iter().filter(|finding| finding.is_fault()).peekable();
+    let verdict = match (faults.peek().is_some(), judgment.has_dots) {
+        (false, _) => Verdict::Correct,
+        (true, false) => Verdict::NoDots,
+        (true, true) if faults.all(|fault| fault.check == ENOUGH_PHOTONS) => Verdict::Undecided,
+        (true, true) => Verdict::Incorrect,
     };
     let because = Because {
-        explanation: judgement.explanation.as_ref(),
-        pair: judgement.pair.as_ref(),
-        findings: judgement.findings,
+        explanation: judgment.explanation.as_ref(),
+        pair: judgment.pair.as_ref(),
+        findings: judgment.findings,
         emitted: None,
     };
     let mut graded = because.graded(submission, settings, verdict, None);
@@ -349,32 +352,33 @@ pub fn grade_list(
     }
     let by_user = settings.emitted.map(|emitted| emitted as f64);
     let emitted = by_user.or(observation.emitted_by_intensity);
-    let mut judgement = judge(&observation, emitted, by_user.is_some(), expectations);
+    let mut judgment = judge(&observation, emitted, by_user.is_some(), expectations);
     let exact = exact_comparison(
         &list,
         settings,
         expectations.signatures.max_bounces,
         emitted.map(|emitted| emitted as u64),
     );
-    judgement.findings.extend(exact);
+    judgment.findings.extend(exact);
     // What the course says of the number is what it wants to know of so few.
-    let is_too_few = by_user.is_none() && judgement.emitted < FEW_EMITTED;
+    let is_too_few = by_user.is_none() && judgment.emitted < FEW_EMITTED;
     if is_too_few {
-        judgement.findings.push(too_few(observation.records));
+        judgment.findings.push(too_few(observation.records));
     }
-    let verdict = match judgement.findings.iter().any(Finding::is_fault) {
-        true => Verdict::Incorrect,
-        false if is_too_few => Verdict::Undecided,
-        false => Verdict::Correct,
+    let mut faults = judgment.findings.iter().filter(|finding| finding.is_fault());
+    let verdict = match faults.all(|fault| fault.check == ENOUGH_PHOTONS) {
+        false => Verdict::Incorrect,
+        true if is_too_few => Verdict::Undecided,
+        true => Verdict::Correct,
     };
     let because = Because {
-        explanation: judgement.explanation.as_ref(),
-        pair: judgement.pair.as_ref(),
-        findings: judgement.findings.clone(),
+        explanation: judgment.explanation.as_ref(),
+        pair: judgment.pair.as_ref(),
+        findings: judgment.findings.clone(),
         emitted: emitted.map(|emitted| emitted as u64),
     };
     let graded = because.graded(submission, settings, verdict, Some(observation.records));
-    Graded { list: Some((list, judgement)), ..graded }
+    Graded { list: Some((list, judgment)), ..graded }
 }
 
 /// The grade of a submission with what is `found`, where none may bounce and so none may be stored.

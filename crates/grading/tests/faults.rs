@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 use grading::crowding::crowding;
-use grading::judge_list::{Expectations, Judgement, judge};
+use grading::judge_list::{Expectations, Judgment, judge};
 use grading::observation::{Observation, observe};
 use grading::places::Places;
 use grading::signature::Signatures;
@@ -37,13 +37,13 @@ fn positions_of(records: &[PhotonRecord]) -> Observation {
     observed(records.iter().map(bare).collect(), Columns::default())
 }
 
-fn faults(judgement: &Judgement) -> Vec<&'static str> {
-    let faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+fn faults(judgment: &Judgment) -> Vec<&'static str> {
+    let faults = judgment.findings.iter().filter(|finding| finding.is_fault());
     faults.map(|fault| fault.check).collect()
 }
 
-fn name(judgement: &Judgement) -> Option<&str> {
-    judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+fn name(judgment: &Judgment) -> Option<&str> {
+    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
 
 #[test]
@@ -62,10 +62,10 @@ fn hits_that_come_back_from_farther_than_rounding_are_not_called_no_offset() {
     for emitted in [None, Some(EMITTED as f64)] {
         let judged = |list| judge(&positions_of(list), emitted, emitted.is_some(), &EXPECTATIONS);
         assert_eq!(name(&judged(&self_hits)), Some("no-offset"));
-        let judgement = judged(&below);
-        assert_eq!(name(&judgement), None);
-        assert!(faults(&judgement).contains(&"same place"));
-        let mut same_place = judgement.findings.iter().filter(|it| it.check == "same place");
+        let judgment = judged(&below);
+        assert_eq!(name(&judgment), None);
+        assert!(faults(&judgment).contains(&"same place"));
+        let mut same_place = judgment.findings.iter().filter(|it| it.check == "same place");
         assert!(same_place.all(|it| it.advice.contains("hemisphere over the normal")));
     }
 }
@@ -111,9 +111,9 @@ const PATHS: Columns =
     Columns { intensity: false, to_light: false, photon: true, bounce: true, surface: false };
 
 fn faults_of_paths(records: Vec<PhotonRecord>, columns: Columns) -> Vec<&'static str> {
-    let judgement = judge(&observed(records, columns), Some(EMITTED as f64), true, &EXPECTATIONS);
-    assert_eq!(name(&judgement), None);
-    faults(&judgement)
+    let judgment = judge(&observed(records, columns), Some(EMITTED as f64), true, &EXPECTATIONS);
+    assert_eq!(name(&judgment), None);
+    faults(&judgment)
 }
 
 #[test]
@@ -165,9 +165,9 @@ fn an_intensity_divided_twice_costs_nothing() {
         let columns = Columns { intensity: true, bounce: true, ..Columns::default() };
         let observation = observed(twice, columns);
         let by_intensity = observation.emitted_by_intensity;
-        let judgement = judge(&observation, by_intensity, false, &EXPECTATIONS);
-        assert!(faults(&judgement).is_empty(), "{emitted}: {:#?}", judgement.findings);
-        assert!(judgement.findings.iter().any(|finding| !finding.passed));
+        let judgment = judge(&observation, by_intensity, false, &EXPECTATIONS);
+        assert!(faults(&judgment).is_empty(), "{emitted}: {:#?}", judgment.findings);
+        assert!(judgment.findings.iter().any(|finding| !finding.passed));
     }
 }
 
@@ -182,9 +182,9 @@ fn photons_that_go_up_are_not_called_direct() {
     let stored: Vec<_> = paths.flat_map(|path| path[1..].to_vec()).collect();
     assert!(stored.len() > 200);
     for list in [positions_of(&stored), observed(stored.clone(), columns)] {
-        let judgement = judge(&list, None, false, &EXPECTATIONS);
-        assert!(!faults(&judgement).is_empty());
-        assert!(!faults(&judgement).contains(&"indirect only"), "{:#?}", judgement.findings);
+        let judgment = judge(&list, None, false, &EXPECTATIONS);
+        assert!(!faults(&judgment).is_empty());
+        assert!(!faults(&judgment).contains(&"indirect only"), "{:#?}", judgment.findings);
     }
 }
 
@@ -204,18 +204,18 @@ fn copies_are_named_by_how_they_come() {
         (twice, "stored-twice", "once for every hit"),
     ] {
         for emitted in [None, Some(EMITTED as f64)] {
-            let judgement = judge(&positions_of(&list), emitted, true, &EXPECTATIONS);
-            assert_eq!(name(&judgement), Some(named));
-            let mut of_faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+            let judgment = judge(&positions_of(&list), emitted, true, &EXPECTATIONS);
+            assert_eq!(name(&judgment), Some(named));
+            let mut of_faults = judgment.findings.iter().filter(|finding| finding.is_fault());
             assert!(of_faults.all(|fault| fault.advice.contains(words)), "{named}");
         }
     }
     // A few places again and again: every photon draws the same numbers, or somebody wants points.
     let three = all[..3].iter().copied().cycle().take(3000).collect();
     for list in [vec![all[0]; 100], vec![all[0]; 5000], three] {
-        let judgement = judge(&positions_of(&list), None, false, &EXPECTATIONS);
-        assert_ne!(name(&judgement), Some("stored-twice"));
-        let mut of_faults = judgement.findings.iter().filter(|finding| finding.is_fault());
+        let judgment = judge(&positions_of(&list), None, false, &EXPECTATIONS);
+        assert_ne!(name(&judgment), Some("stored-twice"));
+        let mut of_faults = judgment.findings.iter().filter(|finding| finding.is_fault());
         let grave = of_faults.find(|fault| fault.weight == Weight::Grave).expect("it is grave");
         assert!(grave.advice.contains("eed"), "{grave:#?}");
     }
@@ -233,17 +233,17 @@ fn numbers_that_are_none_are_not_said_to_come_of_the_frame() {
     let mut lost = records(Variation::default(), 92, EMITTED);
     let mut rand = photon_random(92, 92);
     lost.iter_mut().filter(|_| rand() < 0.75).for_each(|record| record.position = Vec3::NAN);
-    let judgement = judge(&positions_of(&lost), Some(EMITTED as f64), true, &EXPECTATIONS);
-    assert_eq!(name(&judgement), None);
-    let advice = judgement.findings.iter().filter(|it| it.is_fault()).map(|it| &it.advice);
+    let judgment = judge(&positions_of(&lost), Some(EMITTED as f64), true, &EXPECTATIONS);
+    assert_eq!(name(&judgment), None);
+    let advice = judgment.findings.iter().filter(|it| it.is_fault()).map(|it| &it.advice);
     let advice: Vec<_> = advice.collect();
     assert!(!advice.is_empty() && advice.iter().all(|it| !it.contains("(-1, 0, 0)")), "{advice:?}");
     // Where the wall makes them, it is.
     let nan = misreadings().into_iter().find(|it| it.id == "nan-frame").expect("it is known");
-    let judgement =
+    let judgment =
         judge(&positions_of(&records(nan.variation, 93, EMITTED)), None, false, &EXPECTATIONS);
-    assert_eq!(name(&judgement), Some("nan-frame"));
-    let finite = judgement.findings.iter().find(|it| it.check == "finite").expect("it is checked");
+    assert_eq!(name(&judgment), Some("nan-frame"));
+    let finite = judgment.findings.iter().find(|it| it.check == "finite").expect("it is checked");
     assert!(finite.advice.contains("(-1, 0, 0)"));
 }
 
@@ -253,8 +253,8 @@ fn photons_of_another_origin_or_way_are_not_called_direct() {
         for way in misreadings().into_iter().filter(|it| it.id == id) {
             let list = records(way.variation, 94, EMITTED);
             for emitted in [None, Some(EMITTED as f64)] {
-                let judgement = judge(&positions_of(&list), emitted, true, &EXPECTATIONS);
-                assert!(!faults(&judgement).contains(&"indirect only"), "{}", way.title);
+                let judgment = judge(&positions_of(&list), emitted, true, &EXPECTATIONS);
+                assert!(!faults(&judgment).contains(&"indirect only"), "{}", way.title);
             }
         }
     }
@@ -267,9 +267,9 @@ fn half_a_letter_of_the_handout_is_a_mistake_with_a_name() {
     let mut named = 0;
     for seed in 95..100 {
         let list = positions_of(&records(half.variation, seed, 500_000));
-        let judgement = judge(&list, Some(500_000.0), true, &EXPECTATIONS);
-        assert!(!faults(&judgement).is_empty(), "{seed}");
-        named += usize::from(name(&judgement) == Some("half-normalised"));
+        let judgment = judge(&list, Some(500_000.0), true, &EXPECTATIONS);
+        assert!(!faults(&judgment).is_empty(), "{seed}");
+        named += usize::from(name(&judgment) == Some("half-normalised"));
     }
     assert!(named >= 4, "{named}");
 }
@@ -283,8 +283,8 @@ fn rows_of_what_is_written_are_the_transposed_frame() {
     };
     let of_rows = positions_of(&records(variation, 1127, EMITTED));
     for emitted in [None, Some(EMITTED as f64)] {
-        let judgement = judge(&of_rows, emitted, emitted.is_some(), &EXPECTATIONS);
-        assert_eq!(name(&judgement), Some("transposed-frame"));
+        let judgment = judge(&of_rows, emitted, emitted.is_some(), &EXPECTATIONS);
+        assert_eq!(name(&judgment), Some("transposed-frame"));
     }
 }
 
@@ -294,9 +294,9 @@ fn the_angle_that_is_even_is_caught_and_named() {
     let mut named = 0;
     for seed in 101..107 {
         let list = positions_of(&records(even.variation, seed, EMITTED));
-        let judgement = judge(&list, Some(EMITTED as f64), true, &EXPECTATIONS);
-        assert!(!faults(&judgement).is_empty(), "{seed}");
-        named += usize::from(name(&judgement) == Some("linear-angle"));
+        let judgment = judge(&list, Some(EMITTED as f64), true, &EXPECTATIONS);
+        assert!(!faults(&judgment).is_empty(), "{seed}");
+        named += usize::from(name(&judgment) == Some("linear-angle"));
     }
     assert!(named >= 5, "{named}");
 }
@@ -307,10 +307,10 @@ fn a_roulette_that_starts_late_is_not_called_none_at_all() {
         let variation = Variation { sure_hits, ..Variation::default() };
         let list = positions_of(&records(variation, 95, 1_000_000));
         for emitted in [None, Some(1e6)] {
-            let judgement = judge(&list, emitted, false, &EXPECTATIONS);
-            assert!(!faults(&judgement).is_empty());
-            assert_ne!(name(&judgement), Some("no-roulette"), "{sure_hits} hits");
-            assert!(sure_hits > 2 || name(&judgement) == Some("late-roulette"));
+            let judgment = judge(&list, emitted, false, &EXPECTATIONS);
+            assert!(!faults(&judgment).is_empty());
+            assert_ne!(name(&judgment), Some("no-roulette"), "{sure_hits} hits");
+            assert!(sure_hits > 2 || name(&judgment) == Some("late-roulette"));
         }
     }
 }

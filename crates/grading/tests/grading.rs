@@ -1,4 +1,4 @@
-//! The grader's judgement of lists, through the library.
+//! The grader's judgment of lists, through the library.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use grading::expected::{Expected, fit_size};
-use grading::judge_list::{Expectations, Judgement, SIGNIFICANCE, judge};
+use grading::judge_list::{Expectations, Judgment, SIGNIFICANCE, judge};
 use grading::observation::{CountsByPlace, Observation, observe};
 use grading::places::{Place, Places};
 use grading::policy::Policy;
@@ -54,17 +54,17 @@ fn positions_of(records: &[PhotonRecord]) -> Observation {
     observed(records.iter().map(bare).collect(), Columns::default())
 }
 
-fn is_incorrect(judgement: &Judgement) -> bool {
-    judgement.findings.iter().any(|finding| finding.is_fault())
+fn is_incorrect(judgment: &Judgment) -> bool {
+    judgment.findings.iter().any(|finding| finding.is_fault())
 }
 
 /// Whether photons are said to come straight from the light.
-fn says_direct(judgement: &Judgement) -> bool {
-    judgement.findings.iter().any(|finding| finding.check == "indirect only" && finding.is_fault())
+fn says_direct(judgment: &Judgment) -> bool {
+    judgment.findings.iter().any(|finding| finding.check == "indirect only" && finding.is_fault())
 }
 
-fn name(judgement: &Judgement) -> Option<&str> {
-    judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+fn name(judgment: &Judgment) -> Option<&str> {
+    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
 
 #[test]
@@ -128,8 +128,8 @@ fn signatures_of_a_limit_are_those_of_the_tracer() {
 fn how_many_fit_is_told_of_fair_photons_alone() {
     let found = |variation, emitted| {
         let observation = positions_of(&records(variation, 86, EMITTED));
-        let judgement = judge(&observation, emitted, true, &EXPECTATIONS);
-        let mut findings = judgement.findings.into_iter();
+        let judgment = judge(&observation, emitted, true, &EXPECTATIONS);
+        let mut findings = judgment.findings.into_iter();
         findings.find(|finding| finding.check == "enough photons").expect("it is checked").found
     };
     let plain = Variation::default();
@@ -149,8 +149,8 @@ fn few_photons_are_tested_exactly() {
         let observation = observed(records.collect(), Columns::default());
         judge(&observation, None, false, &EXPECTATIONS)
     };
-    let facets = |judgement: &Judgement| {
-        let facets = judgement.findings.iter().find(|finding| finding.check == "facets");
+    let facets = |judgment: &Judgment| {
+        let facets = judgment.findings.iter().find(|finding| finding.check == "facets");
         facets.and_then(|facets| facets.p_value).expect("they are tested")
     };
     // All on the floor, and spread over it.
@@ -299,12 +299,12 @@ fn fair_readings_are_correct_at_any_size() {
             let of_reading = records(hypothesis.variation, 50 + index as u64, emitted);
             let observation = positions_of(&of_reading);
             for known in [None, Some(emitted as f64)] {
-                let judgement = judge(&observation, known, known.is_some(), &EXPECTATIONS);
+                let judgment = judge(&observation, known, known.is_some(), &EXPECTATIONS);
                 assert!(
-                    !is_incorrect(&judgement),
+                    !is_incorrect(&judgment),
                     "{}, {emitted}: {:#?}",
                     hypothesis.title,
-                    judgement.findings
+                    judgment.findings
                 );
             }
         }
@@ -325,11 +325,11 @@ fn misreadings_are_named_from_positions_alone() {
     let count = all.len();
     let named = all.into_par_iter().filter(|hypothesis| {
         let observation = positions_of(&records(hypothesis.variation, 60, EMITTED));
-        let judgement = judge(&observation, Some(EMITTED as f64), true, &EXPECTATIONS);
-        assert!(is_incorrect(&judgement), "{}", hypothesis.title);
+        let judgment = judge(&observation, Some(EMITTED as f64), true, &EXPECTATIONS);
+        assert!(is_incorrect(&judgment), "{}", hypothesis.title);
         // The name says it all.
-        assert!(!says_direct(&judgement), "{}", hypothesis.title);
-        let name = name(&judgement);
+        assert!(!says_direct(&judgment), "{}", hypothesis.title);
+        let name = name(&judgment);
         assert!(name.is_none_or(|name| name == hypothesis.id), "{}: {name:?}", hypothesis.title);
         name.is_some()
     });
@@ -369,10 +369,10 @@ fn what_no_misreading_explains_gets_no_name() {
         .filter(|record| record.position.x > 0.0)
         .collect();
     for records in [records(combination, 63, EMITTED), half] {
-        let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
-        assert!(is_incorrect(&judgement));
-        assert_eq!(name(&judgement), None);
-        assert!(!says_direct(&judgement));
+        let judgment = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
+        assert!(is_incorrect(&judgment));
+        assert_eq!(name(&judgment), None);
+        assert!(!says_direct(&judgment));
     }
 }
 
@@ -380,19 +380,19 @@ fn what_no_misreading_explains_gets_no_name() {
 fn two_misreadings_at_once_are_told_and_not_named() {
     let pairs = pairs();
     for pair in pairs.iter().step_by(9) {
-        let judgement = judge(
+        let judgment = judge(
             &positions_of(&records(pair.variation, 83, EMITTED)),
             Some(EMITTED as f64),
             true,
             &EXPECTATIONS,
         );
-        assert!(is_incorrect(&judgement), "{}", pair.title);
-        assert_eq!(name(&judgement), None, "{}", pair.title);
-        let told = judgement.pair.as_ref().expect(&pair.title);
+        assert!(is_incorrect(&judgment), "{}", pair.title);
+        assert_eq!(name(&judgment), None, "{}", pair.title);
+        let told = judgment.pair.as_ref().expect(&pair.title);
         assert_eq!(told.hypothesis.title, pair.title);
         let is_told =
             |finding: &Finding| finding.is_fault() && finding.advice.contains(&pair.title);
-        assert!(judgement.findings.iter().any(is_told), "{:#?}", judgement.findings);
+        assert!(judgment.findings.iter().any(is_told), "{:#?}", judgment.findings);
     }
 }
 
@@ -402,9 +402,9 @@ fn nearly_all_pairs_are_told_by_their_cells() {
     let mut others = Vec::new();
     for pair in pairs() {
         let observation = positions_of(&records(pair.variation, 95, EMITTED));
-        let judgement = judge(&observation, None, false, &EXPECTATIONS);
-        assert_eq!(name(&judgement), None, "{}", pair.title);
-        let told = judgement.pair.map(|told| told.hypothesis.title).unwrap_or_default();
+        let judgment = judge(&observation, None, false, &EXPECTATIONS);
+        assert_eq!(name(&judgment), None, "{}", pair.title);
+        let told = judgment.pair.map(|told| told.hypothesis.title).unwrap_or_default();
         // With t and b as they are written or not: one title is longer.
         if told.is_empty() || !(told.starts_with(&pair.title) || pair.title.starts_with(&told)) {
             others.push(pair.title);
@@ -422,11 +422,11 @@ fn other_faults_speak_for_no_misreading() {
         some_astray.iter_mut().step_by(50).for_each(|record| record.position.y += 0.03);
         for (records, check) in [(some_twice, "same place"), (some_astray, "on surfaces")] {
             for emitted in [None, Some(EMITTED as f64)] {
-                let judgement = judge(&positions_of(&records), emitted, true, &EXPECTATIONS);
+                let judgment = judge(&positions_of(&records), emitted, true, &EXPECTATIONS);
                 let is_seen = |finding: &Finding| finding.is_fault() && finding.check == check;
-                assert!(judgement.findings.iter().any(is_seen), "{seed} {check}");
-                assert_eq!(name(&judgement), None, "{seed} {check}");
-                assert!(judgement.pair.is_none(), "{seed} {check}");
+                assert!(judgment.findings.iter().any(is_seen), "{seed} {check}");
+                assert_eq!(name(&judgment), None, "{seed} {check}");
+                assert!(judgment.pair.is_none(), "{seed} {check}");
             }
         }
     }
@@ -443,10 +443,10 @@ fn photons_lost_all_over_the_scene_are_no_misreading() {
             at += 1;
             at % 9 != 0
         });
-        let judgement = judge(&positions_of(&few), Some(EMITTED as f64), true, &EXPECTATIONS);
-        incorrect += usize::from(is_incorrect(&judgement));
-        assert_eq!(name(&judgement), None, "{seed}");
-        assert!(judgement.pair.is_none(), "{seed}");
+        let judgment = judge(&positions_of(&few), Some(EMITTED as f64), true, &EXPECTATIONS);
+        incorrect += usize::from(is_incorrect(&judgment));
+        assert_eq!(name(&judgment), None, "{seed}");
+        assert!(judgment.pair.is_none(), "{seed}");
     }
     assert!(incorrect >= 5, "{incorrect}");
 }
@@ -493,8 +493,8 @@ fn a_bounce_too_few_is_seen_in_the_number_of_photons() {
     let emitted = Some(EMITTED as f64);
     let short = judged(1, emitted);
     assert_eq!(name(&short), Some("bounce-off-by-one"));
-    let of_bounces = |judgement: &Judgement| {
-        let mut tests = judgement.findings.iter();
+    let of_bounces = |judgment: &Judgment| {
+        let mut tests = judgment.findings.iter();
         tests.find(|test| test.check == "known misreadings").expect("it is tested").passed
     };
     assert!(!of_bounces(&short));
@@ -539,9 +539,9 @@ fn a_wrong_intensity_costs_nothing() {
     };
     let remarks_on = |observation: &Observation, by_course: Option<f64>| {
         let emitted = by_course.or(observation.emitted_by_intensity);
-        let judgement = judge(observation, emitted, by_course.is_some(), &EXPECTATIONS);
-        assert!(!is_incorrect(&judgement), "{:#?}", judgement.findings);
-        let remarks = judgement.findings.into_iter().filter(|finding| !finding.passed);
+        let judgment = judge(observation, emitted, by_course.is_some(), &EXPECTATIONS);
+        assert!(!is_incorrect(&judgment), "{:#?}", judgment.findings);
+        let remarks = judgment.findings.into_iter().filter(|finding| !finding.passed);
         remarks.map(|remark| remark.check).collect::<Vec<_>>()
     };
     // Divided by the solid angle, not divided at all, and of half as many photons.
@@ -581,9 +581,9 @@ fn an_intensity_alone_wrong_costs_nothing() {
         wrong.iter_mut().for_each(|record| record.intensity *= factor as f32);
         let observation = observed(wrong, columns);
         let by_intensity = observation.emitted_by_intensity;
-        let judgement = judge(&observation, by_intensity, false, &EXPECTATIONS);
-        assert!(!is_incorrect(&judgement), "{factor}: {:#?}", judgement.findings);
-        let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
+        let judgment = judge(&observation, by_intensity, false, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgment), "{factor}: {:#?}", judgment.findings);
+        let remarks: Vec<_> = judgment.findings.iter().filter(|it| !it.passed).collect();
         let checks: Vec<_> = remarks.iter().map(|it| it.check).collect();
         assert_eq!(checks, ["number by intensity"], "{factor}");
         assert!(remarks[0].found.contains(&words), "{factor}: {}", remarks[0].found);
@@ -596,12 +596,12 @@ fn a_misreading_is_named_where_the_intensity_is_off_by_a_known_factor() {
     let mut of_uniform = records(uniform, 82, EMITTED);
     of_uniform.iter_mut().for_each(|record| record.intensity *= std::f32::consts::TAU);
     let observation = observed(of_uniform, Columns { intensity: true, ..Columns::default() });
-    let judgement = judge(&observation, observation.emitted_by_intensity, false, &EXPECTATIONS);
-    assert!(is_incorrect(&judgement));
-    assert_eq!(name(&judgement), Some("uniform-hemisphere"));
-    let by_intensity = judgement.findings.iter().find(|it| it.check == "number by intensity");
+    let judgment = judge(&observation, observation.emitted_by_intensity, false, &EXPECTATIONS);
+    assert!(is_incorrect(&judgment));
+    assert_eq!(name(&judgment), Some("uniform-hemisphere"));
+    let by_intensity = judgment.findings.iter().find(|it| it.check == "number by intensity");
     assert!(by_intensity.is_some_and(|it| !it.is_fault()), "{by_intensity:?}");
-    assert_eq!(judgement.emitted, EMITTED as f64);
+    assert_eq!(judgment.emitted, EMITTED as f64);
 }
 
 #[test]
@@ -613,10 +613,10 @@ fn photons_that_the_intensity_contradicts_are_not_correct() {
         let kept = of_reference.into_iter().filter(|_| rand() * (part as f32) < 1.0).collect();
         let observation = observed(kept, columns);
         let by_intensity = observation.emitted_by_intensity;
-        let judgement = judge(&observation, by_intensity, false, &EXPECTATIONS);
-        let faults: Vec<_> = judgement.findings.iter().filter(|it| it.is_fault()).collect();
+        let judgment = judge(&observation, by_intensity, false, &EXPECTATIONS);
+        let faults: Vec<_> = judgment.findings.iter().filter(|it| it.is_fault()).collect();
         assert_eq!(faults.iter().map(|it| it.check).collect::<Vec<_>>(), ["number by intensity"]);
-        assert_eq!((name(&judgement), faults[0].weight), (None, Weight::Fault));
+        assert_eq!((name(&judgment), faults[0].weight), (None, Weight::Fault));
         assert!(faults[0].advice.contains("--emitted"));
     }
 }
@@ -635,18 +635,18 @@ fn no_name_is_given_that_the_number_contradicts() {
     ];
     for (of_both, by_course) in both.iter().flat_map(|it| [(it, true), (it, false)]) {
         let observation = observed(records(*of_both, 72, EMITTED), columns);
-        let judgement = judge(&observation, Some(EMITTED as f64), by_course, &EXPECTATIONS);
-        assert!(is_incorrect(&judgement), "{of_both:?}");
-        assert_eq!(name(&judgement), None, "{of_both:?}");
+        let judgment = judge(&observation, Some(EMITTED as f64), by_course, &EXPECTATIONS);
+        assert!(is_incorrect(&judgment), "{of_both:?}");
+        assert_eq!(name(&judgment), None, "{of_both:?}");
         // Self-hits, of which the tops of the boxes have many, are not direct.
-        assert!(!says_direct(&judgement) || of_both.stores_direct(), "{of_both:?}");
+        assert!(!says_direct(&judgment) || of_both.stores_direct(), "{of_both:?}");
     }
     // As rounding has it.
     let reading = Reading { offset: Offset::AlongNormal(0.0), ..Reading::REFERENCE };
     let by_rounding = Variation { reading, ..Variation::default() };
     let observation = positions_of(&records(by_rounding, 73, EMITTED));
-    let judgement = judge(&observation, Some(EMITTED as f64), true, &EXPECTATIONS);
-    assert_eq!(name(&judgement), Some("no-offset"));
+    let judgment = judge(&observation, Some(EMITTED as f64), true, &EXPECTATIONS);
+    assert_eq!(name(&judgment), Some("no-offset"));
 }
 
 #[test]
@@ -656,11 +656,11 @@ fn a_short_list_is_correct_and_remarked_on() {
         let of_reference = records(Variation::default(), 400 + seed, 1000);
         let observation = observed(of_reference.clone(), columns);
         assert_eq!(observation.emitted_by_intensity, Some(1000.0));
-        let judgement = judge(&observation, Some(1000.0), false, &EXPECTATIONS);
-        assert!(judgement.findings.iter().all(|it| it.passed), "{:#?}", judgement.findings);
-        let judgement = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
-        assert!(!is_incorrect(&judgement), "{:#?}", judgement.findings);
-        let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
+        let judgment = judge(&observation, Some(1000.0), false, &EXPECTATIONS);
+        assert!(judgment.findings.iter().all(|it| it.passed), "{:#?}", judgment.findings);
+        let judgment = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgment), "{:#?}", judgment.findings);
+        let remarks: Vec<_> = judgment.findings.iter().filter(|it| !it.passed).collect();
         assert_eq!(remarks.iter().map(|it| it.check).collect::<Vec<_>>(), ["enough photons"]);
     }
 }
@@ -675,9 +675,9 @@ fn positions_with_few_decimals_are_correct_and_remarked_on() {
         for record in &mut of_reference {
             record.position = ((record.position.as_dvec3() * unit).round() / unit).as_vec3();
         }
-        let judgement = judge(&positions_of(&of_reference), Some(1_000_000.0), true, &EXPECTATIONS);
-        assert!(!is_incorrect(&judgement), "{decimals}: {:#?}", judgement.findings);
-        let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
+        let judgment = judge(&positions_of(&of_reference), Some(1_000_000.0), true, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgment), "{decimals}: {:#?}", judgment.findings);
+        let remarks: Vec<_> = judgment.findings.iter().filter(|it| !it.passed).collect();
         let checks: Vec<_> = remarks.iter().map(|it| it.check).collect();
         assert_eq!(checks, remark.into_iter().collect::<Vec<_>>(), "{decimals}");
     }
@@ -694,8 +694,8 @@ fn photons_that_cannot_be_where_they_are_are_told_first() {
         let faults_of = |every: usize| {
             let mut moved = records(Variation::default(), 83, EMITTED);
             moved.iter_mut().step_by(every).for_each(|record| record.position = position);
-            let judgement = judge(&positions_of(&moved), Some(EMITTED as f64), true, &EXPECTATIONS);
-            let faults = judgement.findings.into_iter().filter(Finding::is_fault);
+            let judgment = judge(&positions_of(&moved), Some(EMITTED as f64), true, &EXPECTATIONS);
+            let faults = judgment.findings.into_iter().filter(Finding::is_fault);
             faults.collect::<Vec<_>>()
         };
         let faults = faults_of(500);
@@ -716,8 +716,8 @@ fn photons_side_by_side_are_seen() {
     };
     let others: Vec<PhotonRecord> = of_reference.iter().step_by(50).map(beside).collect();
     of_reference.extend(others);
-    let judgement = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
-    let faults: Vec<_> = judgement.findings.iter().filter(|it| it.is_fault()).collect();
+    let judgment = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
+    let faults: Vec<_> = judgment.findings.iter().filter(|it| it.is_fault()).collect();
     assert_eq!(faults.iter().map(|it| it.check).collect::<Vec<_>>(), ["same place"]);
     assert!(!faults[0].found.contains("exactly"), "{}", faults[0].found);
 }
@@ -727,8 +727,8 @@ fn a_hundredth_of_the_photons_stored_twice_is_seen() {
     let mut of_reference = records(Variation::default(), 75, EMITTED);
     let twice: Vec<PhotonRecord> = of_reference.iter().step_by(110).copied().collect();
     of_reference.extend(twice);
-    let judgement = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
-    let faults: Vec<_> = judgement.findings.iter().filter(|it| it.is_fault()).collect();
+    let judgment = judge(&positions_of(&of_reference), None, false, &EXPECTATIONS);
+    let faults: Vec<_> = judgment.findings.iter().filter(|it| it.is_fault()).collect();
     assert_eq!(faults.iter().map(|it| it.check).collect::<Vec<_>>(), ["same place"]);
     assert!(faults[0].found.contains("exactly"), "{}", faults[0].found);
 }
@@ -742,8 +742,8 @@ fn a_tenth_of_one_facet_missing_is_seen() {
         on_floor += u32::from(usize::from(record.surface) == floor);
         usize::from(record.surface) != floor || on_floor % 10 != 0
     });
-    let judgement = judge(&positions_of(&of_reference), Some(1e6), true, &EXPECTATIONS);
-    let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
+    let judgment = judge(&positions_of(&of_reference), Some(1e6), true, &EXPECTATIONS);
+    let fault = judgment.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
     assert_eq!(fault.check, "facets");
     assert!(fault.found.contains("floor"), "{}", fault.found);
 }
@@ -755,9 +755,9 @@ fn faults_of_to_light_cost_nothing() {
     for (check, factor) in faults {
         let mut of_reference = records(Variation::default(), 65, EMITTED);
         of_reference.iter_mut().for_each(|record| record.to_light *= factor);
-        let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
-        assert!(!is_incorrect(&judgement), "{check}: {:#?}", judgement.findings);
-        let remarks: Vec<_> = judgement.findings.iter().filter(|finding| !finding.passed).collect();
+        let judgment = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+        assert!(!is_incorrect(&judgment), "{check}: {:#?}", judgment.findings);
+        let remarks: Vec<_> = judgment.findings.iter().filter(|finding| !finding.passed).collect();
         assert_eq!(remarks.iter().map(|remark| remark.check).collect::<Vec<_>>(), [check]);
     }
 }
@@ -769,8 +769,8 @@ fn only_a_direction_that_is_reversed_throughout_is_called_so() {
     let advice_of = |every: usize| {
         let mut of_reference = records(Variation::default(), 70, EMITTED);
         of_reference.iter_mut().step_by(every).for_each(|record| record.to_light *= -1.0);
-        let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
-        let findings = judgement.findings.into_iter();
+        let judgment = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+        let findings = judgment.findings.into_iter();
         findings.filter(|it| it.check == "to_light direction").map(|it| it.advice).next()
     };
     assert!(advice_of(1).expect("a remark").contains("reversed"));
@@ -792,8 +792,8 @@ fn what_is_told_beside_a_p_value_has_its_leeway() {
     counts.cells[cells].iter_mut().for_each(|count| *count *= 1.012);
     let observation =
         Observation { counts, ..positions_of(&records(Variation::default(), 1, 9999)) };
-    let judgement = judge(&observation, Some(emitted), true, &EXPECTATIONS);
-    let facets = judgement.findings.iter().find(|it| it.check == "facets").expect("it is tested");
+    let judgment = judge(&observation, Some(emitted), true, &EXPECTATIONS);
+    let facets = judgment.findings.iter().find(|it| it.check == "facets").expect("it is tested");
     assert!(facets.passed, "{facets:?}");
     let (_, told) = facets.found.split_once('(').expect("deviations are told");
     let told = told.split(' ').next().and_then(|word| word.parse::<f64>().ok());
@@ -809,8 +809,8 @@ fn photons_straight_from_the_light_are_seen_by_their_direction() {
         record.to_light = (light - record.position).normalize();
     }
     let columns = Columns { to_light: true, ..Columns::default() };
-    let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
-    let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
+    let judgment = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+    let fault = judgment.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
     assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
     // Where all are stored, that is the name, alone or with another one.
     let direct = Variation { storage: Storage::All, ..Variation::default() };
@@ -834,9 +834,9 @@ fn directions_that_the_photons_contradict_cost_nothing() {
     let columns = Columns { to_light: true, ..Columns::default() };
     for emitted in [None, Some(EMITTED as f64)] {
         let observation = observed(of_reference.clone(), columns);
-        let judgement = judge(&observation, emitted, emitted.is_some(), &EXPECTATIONS);
-        assert!(!is_incorrect(&judgement), "{:#?}", judgement.findings);
-        assert!(judgement.findings.iter().any(|it| it.check == "to_light source" && !it.passed));
+        let judgment = judge(&observation, emitted, emitted.is_some(), &EXPECTATIONS);
+        assert!(!is_incorrect(&judgment), "{:#?}", judgment.findings);
+        assert!(judgment.findings.iter().any(|it| it.check == "to_light source" && !it.passed));
     }
 }
 
@@ -855,8 +855,8 @@ fn a_few_photons_straight_from_the_light_are_found() {
         let columns = Columns { to_light: true, ..Columns::default() };
         let observation = observed(records, columns);
         for emitted in [None, Some(EMITTED as f64)] {
-            let judgement = judge(&observation, emitted, emitted.is_some(), &EXPECTATIONS);
-            let mut faults = judgement.findings.iter().filter(|it| it.is_fault());
+            let judgment = judge(&observation, emitted, emitted.is_some(), &EXPECTATIONS);
+            let mut faults = judgment.findings.iter().filter(|it| it.is_fault());
             assert!(faults.any(|it| it.check == "indirect only"), "{part}");
         }
     }
@@ -869,14 +869,14 @@ fn photons_straight_from_the_light_alone_are_seen_by_their_places() {
     let light = create_scene().lights()[0].position.as_dvec3().as_vec3();
     records
         .retain(|record| (light - record.position).normalize().dot(record.to_light) > 1.0 - 1e-7);
-    let judgement = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
+    let judgment = judge(&positions_of(&records), Some(EMITTED as f64), true, &EXPECTATIONS);
     // A part of them is lost, so that it is not the whole of a misreading.
-    let fault = judgement.findings.iter().find(|it| it.is_fault()).expect("a fault");
+    let fault = judgment.findings.iter().find(|it| it.is_fault()).expect("a fault");
     assert_eq!((fault.check, fault.weight), ("indirect only", Weight::Grave));
     // Where directions tell it as well, it is told once.
     let columns = Columns { to_light: true, ..Columns::default() };
-    let judgement = judge(&observed(records, columns), Some(EMITTED as f64), true, &EXPECTATIONS);
-    let told = judgement.findings.iter().filter(|it| it.check == "indirect only" && it.is_fault());
+    let judgment = judge(&observed(records, columns), Some(EMITTED as f64), true, &EXPECTATIONS);
+    let told = judgment.findings.iter().filter(|it| it.check == "indirect only" && it.is_fault());
     assert_eq!(told.count(), 1);
 }
 
@@ -887,9 +887,9 @@ fn self_hits_among_positions_with_few_decimals_are_not_said_to_be_direct() {
     for record in &mut of_self_hits {
         record.position = ((record.position.as_dvec3() * 100.0).round() / 100.0).as_vec3();
     }
-    let judgement = judge(&positions_of(&of_self_hits), None, false, &EXPECTATIONS);
-    assert!(is_incorrect(&judgement) && name(&judgement).is_none());
-    assert!(!says_direct(&judgement), "{:#?}", judgement.findings);
+    let judgment = judge(&positions_of(&of_self_hits), None, false, &EXPECTATIONS);
+    assert!(is_incorrect(&judgment) && name(&judgment).is_none());
+    assert!(!says_direct(&judgment), "{:#?}", judgment.findings);
 }
 
 #[test]
@@ -900,9 +900,9 @@ fn directions_to_the_light_through_surfaces_say_nothing_of_photons() {
         record.to_light = (light - record.position).normalize();
     }
     let columns = Columns { to_light: true, ..Columns::default() };
-    let judgement = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
-    assert!(!is_incorrect(&judgement), "{:#?}", judgement.findings);
-    let remarks: Vec<_> = judgement.findings.iter().filter(|it| !it.passed).collect();
+    let judgment = judge(&observed(of_reference, columns), None, false, &EXPECTATIONS);
+    assert!(!is_incorrect(&judgment), "{:#?}", judgment.findings);
+    let remarks: Vec<_> = judgment.findings.iter().filter(|it| !it.passed).collect();
     assert_eq!(remarks.iter().map(|it| it.check).collect::<Vec<_>>(), ["to_light direction"]);
 }
 
@@ -910,8 +910,8 @@ fn directions_to_the_light_through_surfaces_say_nothing_of_photons() {
 fn a_list_stored_twice_is_incorrect() {
     let mut twice = records(Variation::default(), 67, EMITTED);
     twice.extend(twice.clone());
-    let judgement = judge(&positions_of(&twice), None, false, &EXPECTATIONS);
-    let faults: Vec<_> = judgement.findings.iter().filter(|finding| finding.is_fault()).collect();
+    let judgment = judge(&positions_of(&twice), None, false, &EXPECTATIONS);
+    let faults: Vec<_> = judgment.findings.iter().filter(|finding| finding.is_fault()).collect();
     assert!(faults.iter().any(|fault| fault.check == "same place"), "{faults:#?}");
 }
 
@@ -919,8 +919,8 @@ fn a_list_stored_twice_is_incorrect() {
 fn too_few_photons_are_not_correct() {
     let observation = positions_of(&records(Variation::default(), 68, 60));
     assert!(observation.records > 0);
-    let judgement = judge(&observation, None, false, &EXPECTATIONS);
-    let fault = judgement.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
+    let judgment = judge(&observation, None, false, &EXPECTATIONS);
+    let fault = judgment.findings.iter().find(|finding| finding.is_fault()).expect("a fault");
     assert_eq!(fault.check, "enough photons");
     // Of 60 emitted, they are as many as they should be.
     assert!(!is_incorrect(&judge(&observation, Some(60.0), true, &EXPECTATIONS)));

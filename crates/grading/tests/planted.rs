@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use grading::judge_list::{Expectations, Judgement, judge};
+use grading::judge_list::{Expectations, Judgment, judge};
 use grading::observation::observe;
 use grading::places::Places;
 use grading::signature::Signatures;
@@ -169,7 +169,7 @@ fn trace(plant: &Plant, seed: u64) -> Vec<PhotonRecord> {
 }
 
 /// What is said of `records`, with more and more of it known.
-fn judged(records: &[PhotonRecord]) -> [Judgement; 3] {
+fn judged(records: &[PhotonRecord]) -> [Judgment; 3] {
     let bare = |record: &PhotonRecord| PhotonRecord { position: record.position, ..ABSENT };
     let bare: Vec<_> = records.iter().map(bare).collect();
     let all =
@@ -187,12 +187,12 @@ fn judged(records: &[PhotonRecord]) -> [Judgement; 3] {
     ]
 }
 
-fn name(judgement: &Judgement) -> Option<&str> {
-    judgement.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+fn name(judgment: &Judgment) -> Option<&str> {
+    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
 
-fn is_incorrect(judgement: &Judgement) -> bool {
-    judgement.findings.iter().any(|finding| finding.is_fault())
+fn is_incorrect(judgment: &Judgment) -> bool {
+    judgment.findings.iter().any(|finding| finding.is_fault())
 }
 
 /// Those of which the name of one is no false one, since it was made: by positions alone, the other
@@ -211,13 +211,13 @@ fn faults_that_are_not_in_the_table_get_no_name() {
         .enumerate()
         .map(|(seed, (what, plant))| (what, judged(&trace(&plant, 40 + seed as u64))))
         .collect();
-    for (what, judgements) in &told {
-        for judgement in judgements {
-            let name = name(judgement);
+    for (what, judgments) in &told {
+        for judgment in judgments {
+            let name = name(judgment);
             let is_right = |name| OF_TWO.contains(&(what, name));
             assert!(name.is_none_or(is_right), "{what}: {name:?}");
         }
-        let [alone, with_number, with_all] = judgements.each_ref().map(is_incorrect);
+        let [alone, with_number, with_all] = judgments.each_ref().map(is_incorrect);
         assert!(with_all, "{what} is not seen");
         assert!(with_number || !alone, "{what} is lost with the number");
     }

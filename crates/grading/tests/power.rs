@@ -6,7 +6,7 @@ mod limit;
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use grading::judge_list::{Expectations, Judgement, judge};
+use grading::judge_list::{Expectations, Judgment, judge};
 use grading::observation::observe;
 use grading::places::Places;
 use grading::signature::{Known, Signature, Signatures};
@@ -30,7 +30,7 @@ fn ways(id: &str) -> Vec<&'static Known<Signature>> {
 }
 
 /// What is said of photons under `variation`, by positions and their number, or by the columns too.
-fn judged(variation: Variation, seed: u64, emitted: u64, has_columns: bool) -> Judgement {
+fn judged(variation: Variation, seed: u64, emitted: u64, has_columns: bool) -> Judgment {
     let mut records = Simulation::new(variation, seed, emitted, 1000).trace(0..emitted);
     for record in &mut records {
         *record = match has_columns {
@@ -65,8 +65,8 @@ fn what_hardly_shows_is_found_nearly_as_often_as_by_the_best_test() {
     assert!((0.2..0.95).contains(&best), "{best}: it is neither hidden nor plain");
     let is_found = |seed: &u64| {
         let way = ways[*seed as usize % ways.len()];
-        let judgement = judged(way.hypothesis.variation, FIRST_SEED + seed, EMITTED, false);
-        judgement.findings.iter().any(|finding| finding.is_fault())
+        let judgment = judged(way.hypothesis.variation, FIRST_SEED + seed, EMITTED, false);
+        judgment.findings.iter().any(|finding| finding.is_fault())
     };
     let found = (0..LISTS).into_par_iter().filter(is_found).count() as f64;
     let expected = 0.95 * best * LISTS as f64;
@@ -79,8 +79,8 @@ fn what_hardly_shows_is_found_nearly_as_often_as_by_the_best_test() {
 fn a_number_made_to_fit_gives_few_photons_no_wrong_name() {
     let way = ways("octant-directions")[0];
     for seed in 0..8 {
-        let judgement = judged(way.hypothesis.variation, FIRST_SEED + seed, 10_000, true);
-        let name = judgement.explanation.map(|explanation| explanation.hypothesis.id);
+        let judgment = judged(way.hypothesis.variation, FIRST_SEED + seed, 10_000, true);
+        let name = judgment.explanation.map(|explanation| explanation.hypothesis.id);
         assert!([None, Some("octant-directions")].contains(&name), "{seed}: {name:?}");
     }
 }

@@ -5,8 +5,8 @@ use model::obj::{self, Model};
 
 /// The model with these lines, or what is wrong with it.
 fn model(lines: &str, response: &str) -> Result<Model, String> {
-    let text = format!("mtllib materials\nusemtl grey\n{lines}");
-    let materials = format!("newmtl grey\nKd {response}\n");
+    let text = format!("mtllib materials\nusemtl gray\n{lines}");
+    let materials = format!("newmtl gray\nKd {response}\n");
     obj::parse(&text, |_| Ok(materials.clone())).map_err(|error| error.to_string())
 }
 

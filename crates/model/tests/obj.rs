@@ -185,7 +185,7 @@ fn hash_is_a_comment_after_white_space_or_part_of_a_name() {
     for materials in [
         MATERIALS.replace("newmtl bright", "newmtl bright # shiny"),
         MATERIALS.replace("0.9 0.9 0.9", "0.9 0.9 0.9 # nearly white"),
-        MATERIALS.replace("0.9 0.9 0.9", "0.9 #grey"),
+        MATERIALS.replace("0.9 0.9 0.9", "0.9 #gray"),
     ] {
         assert_as_base(parse_with(BASE, &materials), &materials);
     }
@@ -195,13 +195,13 @@ fn hash_is_a_comment_after_white_space_or_part_of_a_name() {
 
 #[test]
 fn materials_whose_names_could_be_either_are_refused() {
-    let materials = "newmtl grey #1\nKd 0.9\nnewmtl grey #2\nKd 0.1\nnewmtl dark\nKd 0.1\n";
+    let materials = "newmtl gray #1\nKd 0.9\nnewmtl gray #2\nKd 0.1\nnewmtl dark\nKd 0.1\n";
     let text = |name: &str| BASE.replace("usemtl bright", &format!("usemtl {name}"));
-    assert_as_base(parse_with(&text("grey #1"), materials), "grey #1");
-    let error = parse_with(&text("grey"), materials).unwrap_err();
-    assert!(error.contains("model:9: ") && error.contains("could be 'grey #1' or"), "{error}");
-    let error = parse_with(&text("grey #3"), materials).unwrap_err();
-    assert!(error.contains("model:9: ") && error.contains("'grey #3' is in no"), "{error}");
+    assert_as_base(parse_with(&text("gray #1"), materials), "gray #1");
+    let error = parse_with(&text("gray"), materials).unwrap_err();
+    assert!(error.contains("model:9: ") && error.contains("could be 'gray #1' or"), "{error}");
+    let error = parse_with(&text("gray #3"), materials).unwrap_err();
+    assert!(error.contains("model:9: ") && error.contains("'gray #3' is in no"), "{error}");
 }
 
 #[test]

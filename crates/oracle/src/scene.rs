@@ -21,8 +21,8 @@ pub struct Plate {
     /// Its plane, normal to the side photons scatter to.
     pub plane: Plane,
     /// Mean of the corners.
-    pub centre: DVec3,
-    /// Distance of the farthest corner from the centre.
+    pub center: DVec3,
+    /// Distance of the farthest corner from the center.
     pub radius: f64,
     /// Corners, counterclockwise about the normal.
     pub corners: Polygon,
@@ -56,8 +56,8 @@ impl PlateScene {
     /// Facets with a coordinate that is not finite or without area are left out, as are emitters
     /// that are not finite or have no share.
     pub fn new(facets: &[Facet], emitters: &[Emitter]) -> Self {
-        let (centre, unit) = frame(facets);
-        let to_scene = |point: DVec3| (point - centre) / unit;
+        let (center, unit) = frame(facets);
+        let to_scene = |point: DVec3| (point - center) / unit;
         let mut plates: Vec<Plate> = Vec::new();
         for (index, facet) in facets.iter().enumerate() {
             if let Some(plate) = plate(index, facet, to_scene) {
@@ -88,10 +88,10 @@ impl PlateScene {
         let middle = triangle.iter().sum::<DVec3>() / 3.0;
         let radius = triangle.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
         let plates = self.plates.iter().enumerate().filter(|(index, _)| *index != own);
-        let plates = plates.map(|(_, plate)| (plate.centre, plate.radius));
+        let plates = plates.map(|(_, plate)| (plate.center, plate.radius));
         let height = |light: DVec3| self.plates[own].plane.distance(light).abs();
         let lights = self.emitters.iter().map(|(light, _)| (*light, height(*light)));
-        let distance = |(centre, size): (DVec3, f64)| (middle.distance(centre) - radius).max(size);
+        let distance = |(center, size): (DVec3, f64)| (middle.distance(center) - radius).max(size);
         plates.chain(lights).map(distance).fold(f64::INFINITY, f64::min)
     }
 
@@ -120,9 +120,9 @@ impl PlateScene {
                 .filter(|&o| self.may_block(a, side, target, o))
                 .map(|o| o as u32)
                 .collect();
-            let goal = self.plates[target].centre;
+            let goal = self.plates[target].center;
             list.sort_by(|&a, &b| {
-                let [a, b] = [a, b].map(|o| self.plates[o as usize].centre.distance_squared(goal));
+                let [a, b] = [a, b].map(|o| self.plates[o as usize].center.distance_squared(goal));
                 a.total_cmp(&b)
             });
             list
@@ -134,8 +134,8 @@ impl PlateScene {
     /// side and `o` on the other.
     fn passes_by(&self, a: usize, target: usize, o: usize) -> bool {
         let [a, target, o] = [a, target, o].map(|plate| &self.plates[plate]);
-        let along = target.centre - a.centre;
-        let towards = o.centre - a.centre;
+        let along = target.center - a.center;
+        let towards = o.center - a.center;
         let across = towards - along * (towards.dot(along) / along.length_squared());
         let Some(axis) = across.try_normalize() else { return false };
         let beam = a
@@ -221,15 +221,15 @@ fn part_back_to_back(plates: &mut [Plate]) -> bool {
     for &index in &parted {
         let plate = &mut plates[index];
         let step = GAP * plate.plane.normal;
-        plate.centre += step;
+        plate.center += step;
         plate.corners.iter_mut().for_each(|corner| *corner += step);
         plate.parts = vec![plate.corners.clone()];
-        plate.plane = Plane::through(plate.centre, plate.plane.normal);
+        plate.plane = Plane::through(plate.center, plate.plane.normal);
     }
     !parted.is_empty()
 }
 
-/// Centre and larger half extent of all usable facets.
+/// Center and larger half extent of all usable facets.
 fn frame(facets: &[Facet]) -> (DVec3, f64) {
     let corners = || {
         facets.iter().filter(|facet| is_usable(facet)).flat_map(|facet| &facet.vertices).copied()
@@ -274,17 +274,17 @@ fn plate(index: usize, facet: &Facet, to_scene: impl Fn(DVec3) -> DVec3) -> Opti
         normal = -normal;
         corners.reverse();
     }
-    let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
-    let plane = Plane::through(centre, normal);
+    let center = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    let plane = Plane::through(center, normal);
     for corner in &mut corners {
         *corner -= normal * plane.distance(*corner);
     }
     let survival = if facet.survival.is_finite() { facet.survival.clamp(0.0, 1.0) } else { 0.0 };
-    let radius = corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max);
+    let radius = corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
     Some(Plate {
         facet: index,
         plane,
-        centre,
+        center,
         radius,
         parts: vec![corners.clone()],
         corners,

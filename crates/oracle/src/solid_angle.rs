@@ -52,10 +52,10 @@ mod tests {
         assert!((angle - 4.0 * PI / 6.0).abs() < 1e-14);
     }
 
-    /// Howell's catalogue, C-11 quadrupled: square of half side 1 at distance 1 gives 4/pi *
+    /// Howell's catalog, C-11 quadrupled: square of half side 1 at distance 1 gives 4/pi *
     /// atan(1/sqrt 2)/sqrt 2.
     #[test]
-    fn a_square_overhead_has_the_catalogued_form_factor() {
+    fn a_square_overhead_has_the_catalogd_form_factor() {
         let expected = 4.0 / PI * (0.5f64.sqrt()).atan() * 0.5f64.sqrt();
         let found = form_factor(&facing_square(1.0, 1.0), DVec3::ZERO, DVec3::Z);
         assert!((found - expected).abs() < 1e-15);

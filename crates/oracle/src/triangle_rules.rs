@@ -74,11 +74,11 @@ impl TriangleRule {
         depth: u32,
         visit: &mut impl FnMut(DVec3, f64),
     ) {
-        let centre = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+        let center = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
         let (_, length_squared) = longest_edge(&triangle);
         let is_near = poles
             .iter()
-            .any(|&pole| length_squared > ratio_squared * pole.distance_squared(centre));
+            .any(|&pole| length_squared > ratio_squared * pole.distance_squared(center));
         if is_near && depth > 0 {
             for half in bisect(&triangle) {
                 self.graded_triangle(half, poles, ratio_squared, depth - 1, visit);

@@ -82,7 +82,7 @@ fn remove_shadow(
 
 /// Whether the balls around two plates fill cones of directions that do not meet, seen from `eye`.
 fn look_apart(eye: DVec3, a: &Plate, b: &Plate) -> bool {
-    let (to_a, to_b) = (a.centre - eye, b.centre - eye);
+    let (to_a, to_b) = (a.center - eye, b.center - eye);
     let (squared_a, squared_b) = (to_a.length_squared(), to_b.length_squared());
     let (tangent_a, tangent_b) = (squared_a - a.radius * a.radius, squared_b - b.radius * b.radius);
     if tangent_a <= 0.0 || tangent_b <= 0.0 {

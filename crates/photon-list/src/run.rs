@@ -53,7 +53,7 @@ impl RunPart {
         })
     }
 
-    /// The part that `parts` make up together; `Err` names the two neighbours that do not fit, by
+    /// The part that `parts` make up together; `Err` names the two neighbors that do not fit, by
     /// their places in `parts`, and says why. `order` is sorted as the parts follow each other.
     pub fn join(parts: &[Self], order: &mut [usize]) -> Result<Self, (usize, usize, String)> {
         order.sort_by_key(|part| (parts[*part].range.start, parts[*part].range.end));

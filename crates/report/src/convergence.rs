@@ -220,12 +220,12 @@ fn markdown(speed: &Speed, curves: &[Curve; 3]) -> String {
 }
 
 fn plot(speed: &Speed, curves: &[Curve]) -> String {
-    let line = |(colour, curve): (usize, &Curve)| {
+    let line = |(color, curve): (usize, &Curve)| {
         let sizes = || speed.sizes.iter().zip(&curve.rms);
         let known = sizes().filter(|(size, _)| has_interval(**size, curve.fewest));
         PlotLine {
             name: format!("{} (bars: 95 %)", curve.name),
-            colour,
+            color,
             mark: Mark::Circles,
             points: sizes().map(|(size, rms)| (*size as f64, rms.value)).collect(),
             bars: known.map(|(size, rms)| (*size as f64, rms.low, rms.high)).collect(),
@@ -235,7 +235,7 @@ fn plot(speed: &Speed, curves: &[Curve]) -> String {
     let theory = |size: &u64| (*size as f64, speed.deviation_of_one() / (*size as f64).sqrt());
     lines.push(PlotLine {
         name: "total, theory (slope -1/2)".to_owned(),
-        colour: 3,
+        color: 3,
         mark: Mark::Dashes,
         points: speed.sizes.iter().map(theory).collect(),
         bars: Vec::new(),

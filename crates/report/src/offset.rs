@@ -228,7 +228,7 @@ fn plot(cases: &[OffsetCase]) -> String {
         (HitRule::Reference, Mark::Hollow),
     ];
     let lines = |amount: fn(Displacement) -> Option<f64>| -> Vec<PlotLine> {
-        let line = |(colour, (rule, mark)): (usize, &(HitRule, Mark))| {
+        let line = |(color, (rule, mark)): (usize, &(HitRule, Mark))| {
             let of_rule = cases.iter().filter(|case| case.rule == *rule);
             let point = |case: &OffsetCase| {
                 let half_a_photon = 0.5e6 / case.emitted as f64;
@@ -237,7 +237,7 @@ fn plot(cases: &[OffsetCase]) -> String {
             };
             PlotLine {
                 name: format!("offset: {}", rule.name()),
-                colour,
+                color,
                 mark: *mark,
                 points: of_rule.filter_map(point).collect(),
                 bars: Vec::new(),

@@ -41,7 +41,7 @@ pub struct PlotLine {
     /// In the legend.
     pub name: String,
     /// Number in the palette.
-    pub colour: usize,
+    pub color: usize,
     /// How they are shown.
     pub mark: Mark,
     /// All above zero.
@@ -50,7 +50,7 @@ pub struct PlotLine {
     pub bars: Vec<(f64, f64, f64)>,
 }
 
-/// Okabe and Ito's colours, which the colour-blind can tell apart.
+/// Okabe and Ito's colors, which the color-blind can tell apart.
 const PALETTE: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -121,8 +121,8 @@ fn draw_one<'a>(
         .y_label_formatter(&|y| power_of_ten(*y))
         .draw()?;
     for line in lines {
-        let colour = PALETTE[line.colour % PALETTE.len()];
-        let stroke = colour.stroke_width(2);
+        let color = PALETTE[line.color % PALETTE.len()];
+        let stroke = color.stroke_width(2);
         let dashed = line.mark.is_dashed();
         if dashed {
             let dashes = DashedLineSeries::new(line.points.clone(), 6, 4, stroke);
@@ -130,15 +130,15 @@ fn draw_one<'a>(
         } else {
             chart.draw_series(LineSeries::new(line.points.clone(), stroke))?;
         }
-        let fill = if dashed { WHITE.filled() } else { colour.filled() };
+        let fill = if dashed { WHITE.filled() } else { color.filled() };
         if line.mark.has_circles() {
             let circle = |point: &(f64, f64)| Circle::new(*point, 4, fill);
             chart.draw_series(line.points.iter().map(circle))?;
-            let ring = |point: &(f64, f64)| Circle::new(*point, 4, colour.stroke_width(2));
+            let ring = |point: &(f64, f64)| Circle::new(*point, 4, color.stroke_width(2));
             chart.draw_series(line.points.iter().map(ring))?;
         }
         let bar = |&(x, low, high): &(f64, f64, f64)| {
-            PathElement::new(vec![(x, low), (x, high)], colour.stroke_width(1))
+            PathElement::new(vec![(x, low), (x, high)], color.stroke_width(1))
         };
         chart.draw_series(line.bars.iter().map(bar))?;
     }
@@ -149,16 +149,16 @@ fn draw_one<'a>(
 fn draw_legend<'a>(area: &PlotArea<'a>, lines: &[PlotLine]) -> Result<(), DrawingFailure<'a>> {
     for (row, line) in lines.iter().enumerate() {
         let y = 60 + 24 * row as i32;
-        let colour = PALETTE[line.colour % PALETTE.len()];
+        let color = PALETTE[line.color % PALETTE.len()];
         let dashes = if line.mark.is_dashed() { vec![0, 10, 18] } else { vec![0] };
         let length = if line.mark.is_dashed() { 6 } else { 24 };
         for x in dashes {
-            area.draw(&PathElement::new([(x, y), (x + length, y)], colour.stroke_width(2)))?;
+            area.draw(&PathElement::new([(x, y), (x + length, y)], color.stroke_width(2)))?;
         }
         if line.mark.has_circles() {
-            let fill = if line.mark.is_dashed() { WHITE.filled() } else { colour.filled() };
+            let fill = if line.mark.is_dashed() { WHITE.filled() } else { color.filled() };
             area.draw(&Circle::new((12, y), 4, fill))?;
-            area.draw(&Circle::new((12, y), 4, colour.stroke_width(2)))?;
+            area.draw(&Circle::new((12, y), 4, color.stroke_width(2)))?;
         }
         area.draw(&Text::new(line.name.clone(), (32, y - 7), ("sans-serif", 14)))?;
     }

@@ -173,7 +173,7 @@ pub fn section(precision: &Precision) -> PageSection {
     let _ = writeln!(
         text,
         "- **f64 takes {} times as long** as f32 in this code: {} against {} ns a photon, on all \
-         cores, the fastest of {ROUNDS} rounds. Neither is vectorised by hand. `render` may be \
+         cores, the fastest of {ROUNDS} rounds. Neither is vectorized by hand. `render` may be \
          faster than both, and wide f64 lanes would be half as many.",
         short(ratio, 3),
         short(precision.double_time, 3),
@@ -213,7 +213,7 @@ fn plot(precision: &Precision) -> String {
             .filter(|(distance, _)| *distance > 1e-9);
         PlotLine {
             name: format!("hit {}", hit + 1),
-            colour: hit,
+            color: hit,
             mark: Mark::Plain,
             points: points.collect(),
             bars: Vec::new(),

@@ -190,12 +190,12 @@ fn markdown(samplers: &Samplers) -> String {
 
 fn plot(samplers: &Samplers) -> String {
     let mut lines = Vec::new();
-    for (colour, quantity) in [0, 1, 2, HITS].into_iter().enumerate() {
+    for (color, quantity) in [0, 1, 2, HITS].into_iter().enumerate() {
         for (sampler, mark) in [(Sampler::ChaCha, Mark::Hollow), (Sampler::Sobol, Mark::Circles)] {
             let points = samplers.sizes.iter().zip(samplers.curve(sampler, quantity));
             lines.push(PlotLine {
                 name: format!("{}, {}", NAMES[quantity], sampler.name()),
-                colour,
+                color,
                 mark,
                 points: points.map(|(size, error)| (*size as f64, error.value.max(1e-9))).collect(),
                 bars: Vec::new(),

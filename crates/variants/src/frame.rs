@@ -58,7 +58,7 @@ impl Frame {
     /// The frame of `reading`, unless that is no fair one.
     pub fn of(reading: &Reading) -> Option<Self> {
         let lengths = match reading.tangent_basis {
-            TangentBasis::Normalised => Lengths::Unit,
+            TangentBasis::Normalized => Lengths::Unit,
             TangentBasis::LetterOfTheHandout => Lengths::AsWritten,
             TangentBasis::Transposed => return None,
         };

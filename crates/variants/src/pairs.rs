@@ -75,8 +75,8 @@ pub fn pairs() -> Vec<Hypothesis> {
             let Some(variation) = both(first.variation, second.variation) else { continue };
             let title = format!("{}; and {}", first.title, second.title);
             let pair = Hypothesis { id: PAIR, title, misreading: None, variation };
-            let is_normalised = variation.reading == Reading::REFERENCE;
-            let literal = is_normalised.then(|| to_the_letter(&pair));
+            let is_normalized = variation.reading == Reading::REFERENCE;
+            let literal = is_normalized.then(|| to_the_letter(&pair));
             pairs.push(pair);
             pairs.extend(literal);
         }

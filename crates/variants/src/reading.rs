@@ -8,7 +8,7 @@ use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentBasis {
     /// Both have length 1: the scattered directions follow the cosine.
-    Normalised,
+    Normalized,
     /// As the equations stand: t = n x (1, 0, 0) is shorter than 1 unless n is at a right angle to
     /// the x axis, and the lobe of directions is narrower than the cosine's.
     LetterOfTheHandout,
@@ -32,10 +32,10 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The reading of the reference: normalised, with the framework's offset of shadow rays where
+    /// The reading of the reference: normalized, with the framework's offset of shadow rays where
     /// that is small enough.
     pub const REFERENCE: Self = Self {
-        tangent_basis: TangentBasis::Normalised,
+        tangent_basis: TangentBasis::Normalized,
         fallback_threshold: CLOSE_TO_PARALLEL,
         fallback_axis: Vec3::Y,
         offset: Offset::AsNeeded,
@@ -57,12 +57,12 @@ impl Reading {
     pub fn tangent_frame(&self, normal: Vec3) -> Mat3 {
         let is_parallel = normal.dot(Vec3::X).abs() > self.fallback_threshold;
         let axis = if is_parallel { self.fallback_axis } else { Vec3::X };
-        let normalise = |vector: Vec3| match self.tangent_basis {
+        let normalize = |vector: Vec3| match self.tangent_basis {
             TangentBasis::LetterOfTheHandout => vector,
             _ => vector.normalize(),
         };
-        let tangent = normalise(normal.cross(axis));
-        let bitangent = normalise(normal.cross(tangent));
+        let tangent = normalize(normal.cross(axis));
+        let bitangent = normalize(normal.cross(tangent));
         let columns = Mat3::from_cols(tangent, bitangent, normal);
         if self.tangent_basis == TangentBasis::Transposed { columns.transpose() } else { columns }
     }

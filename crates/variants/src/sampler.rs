@@ -1,4 +1,4 @@
-//! Where a photon's numbers come from: the reference's generator, or a labelled extra.
+//! Where a photon's numbers come from: the reference's generator, or a labeled extra.
 
 use glam::Vec3;
 

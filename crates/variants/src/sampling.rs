@@ -62,11 +62,11 @@ pub enum Hemisphere {
     Cosine,
     /// Evenly.
     Uniform,
-    /// With r = u1 instead of its square root, normalised.
+    /// With r = u1 instead of its square root, normalized.
     NoSquareRoot,
     /// With r = u1, on the unit sphere.
     NoSquareRootOnSphere,
-    /// With z = 1 - u1 instead of its square root, normalised.
+    /// With z = 1 - u1 instead of its square root, normalized.
     NoSquareRootOfHeight,
     /// With the polar angle pi/2 u1.
     LinearAngle,

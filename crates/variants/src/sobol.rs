@@ -123,7 +123,7 @@ fn scramble(x: u32, key: u32) -> u32 {
     x.reverse_bits()
 }
 
-/// A key for every seed, set and dimension, by the finaliser of SplitMix64 (Steele et al. 2014).
+/// A key for every seed, set and dimension, by the finalizer of SplitMix64 (Steele et al. 2014).
 fn key(seed: u64, set: u32, dimension: u32) -> u32 {
     let mix = |x: u64| {
         let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

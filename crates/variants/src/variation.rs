@@ -81,7 +81,7 @@ pub enum Transformation {
     /// Its rows are t, b and n.
     Rows,
     /// b has length 1, t is as it is written.
-    HalfNormalised,
+    HalfNormalized,
 }
 
 /// Which hits are stored.
@@ -159,7 +159,7 @@ pub struct Variation {
     /// Whether u1 and u2 come again as the next numbers of the path.
     pub repeats_numbers: bool,
     /// Whether photons leave along the normal where t and b are not numbers, as where a safe
-    /// normalisation leaves them at zero.
+    /// normalization leaves them at zero.
     pub zero_frame: bool,
     /// Whether normals point to the other side.
     pub flipped_normal: bool,
@@ -217,7 +217,7 @@ impl Variation {
                 let [x, y, z] = columns.map(|column| read.col(column));
                 Mat3::from_cols(x, y, z)
             }
-            Transformation::HalfNormalised => {
+            Transformation::HalfNormalized => {
                 let letter =
                     Reading { tangent_basis: TangentBasis::LetterOfTheHandout, ..self.reading };
                 let written = letter.tangent_frame(normal);

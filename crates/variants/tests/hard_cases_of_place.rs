@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use fast::lanes::offset::Offset;
-use fixtures::judge::{Judge, PathJudgement};
+use fixtures::judge::{Judge, PathJudgment};
 use fixtures::{handout, handout_on_a_plain, handout_over_a_square, light, list, moved_handout};
 use glam::{DVec3, Vec3};
 use model::placement::Placement;
@@ -23,21 +23,21 @@ use report::both_precisions::double::PrecisionTracer;
 use variants::reading::Reading;
 use variants::run::Run;
 
-/// Whether `judgement` of `count` photons has nothing impossible in it, and on the handout's
+/// Whether `judgment` of `count` photons has nothing impossible in it, and on the handout's
 /// surfaces what the oracle of the unmoved scene expects.
-fn check(judgement: &PathJudgement, count: u64, case: &str) {
-    assert_eq!(judgement.impossible(), [0; 3], "{case}: self-hits, leaks, under boxes");
+fn check(judgment: &PathJudgment, count: u64, case: &str) {
+    assert_eq!(judgment.impossible(), [0; 3], "{case}: self-hits, leaks, under boxes");
     let expected = ExpectedTable::of_assignment8();
     for (surface, row) in expected.surfaces.iter().enumerate() {
         let deviation = (expected.covariance[surface][surface] * count as f64).sqrt();
-        let z = (judgement.stored[surface] as f64 - row.stored * count as f64) / deviation;
+        let z = (judgment.stored[surface] as f64 - row.stored * count as f64) / deviation;
         assert!(z.abs() < 4.5, "{case}: {} is {z:.1} off", row.name);
     }
 }
 
 fn check_moved(scale: f64, shift: DVec3, seed: u64, count: u64) {
-    let judgement = Judge::new(&moved_handout(scale, shift, seed, count)).judge(0..count);
-    check(&judgement, count, &format!("scale {scale}, shift {shift}"));
+    let judgment = Judge::new(&moved_handout(scale, shift, seed, count)).judge(0..count);
+    check(&judgment, count, &format!("scale {scale}, shift {shift}"));
 }
 
 #[test]
@@ -70,9 +70,9 @@ fn small_detail_of_a_wide_scene() {
     let at_home = Judge::new(&handout(32, count)).judge(0..count);
     for extent in [20.0, 200.0, 2e3, 2e4] {
         let run = handout_over_a_square(extent, DVec3::ZERO, 32, count);
-        let judgement = Judge::new(&run).judge(0..count);
-        check(&judgement, count, &format!("over a square of {extent}"));
-        let pairs = judgement.stored.iter().zip(&at_home.stored);
+        let judgment = Judge::new(&run).judge(0..count);
+        check(&judgment, count, &format!("over a square of {extent}"));
+        let pairs = judgment.stored.iter().zip(&at_home.stored);
         let differences: Vec<_> = pairs.map(|(here, there)| here.abs_diff(*there)).collect();
         assert!(differences.iter().all(|difference| *difference <= 5), "{extent}: {differences:?}");
     }
@@ -91,13 +91,12 @@ fn small_detail_away_from_the_middle() {
             let shift = extent * direction;
             let rounding = f64::from(f32::EPSILON) * shift.abs().max_element();
             let run = handout_over_a_square(extent, shift, 33, count);
-            let judgement = Judge::new(&run).judge(0..count);
-            let pairs = judgement.stored.iter().zip(&at_home.stored);
+            let judgment = Judge::new(&run).judge(0..count);
+            let pairs = judgment.stored.iter().zip(&at_home.stored);
             let differences: Vec<_> = pairs.map(|(a, b)| a.abs_diff(*b)).collect();
-            let case =
-                format!("{shift} in {extent}: {:?}, {differences:?}", judgement.impossible());
+            let case = format!("{shift} in {extent}: {:?}, {differences:?}", judgment.impossible());
             assert!(
-                judgement.impossible().iter().sum::<u64>() as f64 <= 3.0 + 1e4 * rounding,
+                judgment.impossible().iter().sum::<u64>() as f64 <= 3.0 + 1e4 * rounding,
                 "{case}"
             );
             let bound = 10.0 + 1e5 * rounding;
@@ -184,9 +183,9 @@ fn expected_hits_on_a_sheet_of_two_sides() {
             facet: 0,
         })
     };
-    let grey =
+    let gray =
         |name: &str| MeshObject { name: name.into(), material: Material::new(Vec3::splat(0.5)) };
-    let names = ["floor", "up", "down", "roof"].map(grey);
+    let names = ["floor", "up", "down", "roof"].map(gray);
     // The sheet's lower side is smaller, so that the upper one is met from behind beside it.
     let triangles = [
         square(0.0, 1.0, Vec3::Z, 0),
@@ -253,15 +252,15 @@ fn no_self_hit_and_no_leak_in_a_hundred_million_rays() {
     for (seed, (case, mut run)) in (1100..).zip(cases) {
         run.renderer.seed = seed;
         let start = Instant::now();
-        let judgement = Judge::new(&run).judge(0..PHOTONS);
+        let judgment = Judge::new(&run).judge(0..PHOTONS);
         // One ray left the light for every photon, and another a surface for every one that was
         // stored.
-        let stored: u64 = judgement.stored.iter().sum();
+        let stored: u64 = judgment.stored.iter().sum();
         let seconds = start.elapsed().as_secs_f64();
-        let impossible = judgement.impossible();
+        let impossible = judgment.impossible();
         println!("{case}, {}, {impossible:?}, {seconds:.1}", PHOTONS + stored);
         assert!(stored > PHOTONS / 20, "{case}: only {stored} photons were judged");
-        check(&judgement, PHOTONS, &case);
+        check(&judgment, PHOTONS, &case);
     }
 }
 

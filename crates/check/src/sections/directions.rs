@@ -34,7 +34,7 @@ pub struct Scattered {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameForm {
     /// t, b and n are the columns, of length 1.
-    Normalised,
+    Normalized,
     /// t and b as equations (7) and (8) have them.
     AsWritten,
     /// t as written, b of length 1.
@@ -52,11 +52,11 @@ pub enum FrameForm {
 impl FrameForm {
     /// Whether it is a fair reading of the handout.
     pub fn is_fair(self) -> bool {
-        matches!(self, Self::Normalised | Self::AsWritten)
+        matches!(self, Self::Normalized | Self::AsWritten)
     }
 }
 
-/// Directions over the grey floor and the grey walls, and what the floor says about the sampling.
+/// Directions over the gray floor and the gray walls, and what the floor says about the sampling.
 #[derive(Debug, Default)]
 pub struct Directions {
     /// Whether all scattered rays are those that came in, unchanged.
@@ -99,7 +99,7 @@ impl Directions {
         // On the floor, several frames are the same.
         let tried = || {
             candidates.iter().filter(|(frame, _)| {
-                matches!(frame, FrameForm::Normalised | FrameForm::Flipped | FrameForm::OtherOrder)
+                matches!(frame, FrameForm::Normalized | FrameForm::Flipped | FrameForm::OtherOrder)
             })
         };
         let seen: Vec<_> =
@@ -190,13 +190,13 @@ pub fn frames(normal: Vec3) -> Vec<(FrameForm, Mat3)> {
         let t = normal.cross(axis);
         (t, normal.cross(t))
     };
-    let normalised = |axis: Vec3| {
+    let normalized = |axis: Vec3| {
         let (t, b) = as_written(axis);
         (t.normalize(), b.normalize())
     };
     for axis in &axes {
-        let (t, b) = normalised(*axis);
-        frames.push((FrameForm::Normalised, Mat3::from_cols(t, b, normal)));
+        let (t, b) = normalized(*axis);
+        frames.push((FrameForm::Normalized, Mat3::from_cols(t, b, normal)));
     }
     for axis in &axes {
         let (t, b) = as_written(*axis);
@@ -204,7 +204,7 @@ pub fn frames(normal: Vec3) -> Vec<(FrameForm, Mat3)> {
         frames.push((FrameForm::HalfAsWritten, Mat3::from_cols(t, b.normalize(), normal)));
     }
     for axis in &axes {
-        for (t, b) in [normalised(*axis), as_written(*axis)] {
+        for (t, b) in [normalized(*axis), as_written(*axis)] {
             frames.push((FrameForm::Flipped, Mat3::from_cols(t, b, -normal)));
             frames.push((FrameForm::Transposed, Mat3::from_cols(t, b, normal).transpose()));
             frames.push((FrameForm::OtherOrder, Mat3::from_cols(t, normal, b)));

@@ -11,7 +11,7 @@ mod turns;
 use serde::Serialize;
 use variants::section::Section;
 
-use crate::plan::{COLOURS, PlanStep};
+use crate::plan::{COLORS, PlanStep};
 use crate::run::{Death, Observed};
 
 /// What a section's verdict is.
@@ -142,10 +142,10 @@ fn where_of(step: PlanStep) -> String {
         PlanStep::GrowPath => "closed white cubes, a path of length 1".to_owned(),
         PlanStep::Black => "a wall with P_r = 0".to_owned(),
         PlanStep::White => "a wall with P_r = 1".to_owned(),
-        PlanStep::Colour(index) => {
-            format!("a colored wall with P_r = {}", COLOURS[index].max_element())
+        PlanStep::Color(index) => {
+            format!("a colored wall with P_r = {}", COLORS[index].max_element())
         }
-        PlanStep::GreyCube => "closed cubes with P_r = 0.5".to_owned(),
+        PlanStep::GrayCube => "closed cubes with P_r = 0.5".to_owned(),
         PlanStep::Threshold(_) => {
             "a wall with P_r = 0.5, the first number drawn near 0.5".to_owned()
         }

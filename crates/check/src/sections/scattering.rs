@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::SectionVerdict;
 use crate::events::Call;
-use crate::plan::{COLOURS, PlanStep};
+use crate::plan::{COLORS, PlanStep};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
 use variants::section::Section;
@@ -12,11 +12,11 @@ use variants::section::Section;
 const STEPS: [PlanStep; 10] = [
     PlanStep::Black,
     PlanStep::White,
-    PlanStep::Colour(0),
-    PlanStep::Colour(1),
-    PlanStep::Colour(2),
-    PlanStep::Colour(3),
-    PlanStep::GreyCube,
+    PlanStep::Color(0),
+    PlanStep::Color(1),
+    PlanStep::Color(2),
+    PlanStep::Color(3),
+    PlanStep::GrayCube,
     PlanStep::Threshold(-1024),
     PlanStep::Threshold(0),
     PlanStep::Threshold(1024),
@@ -126,21 +126,21 @@ const RULES: [Rule; 14] = [
 pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdict {
     let mut verdict = SectionVerdict::new(Section::PhotonScatteringAbsorption);
     let calls = |step| observed.calls(step);
-    // What happens at the first hit, by the wall's colour.
+    // What happens at the first hit, by the wall's color.
     let walls: Vec<_> = [
         (PlanStep::Black, Vec3::ZERO),
         (PlanStep::White, Vec3::ONE),
-        (PlanStep::Colour(0), COLOURS[0]),
-        (PlanStep::Colour(1), COLOURS[1]),
-        (PlanStep::Colour(2), COLOURS[2]),
-        (PlanStep::Colour(3), COLOURS[3]),
+        (PlanStep::Color(0), COLORS[0]),
+        (PlanStep::Color(1), COLORS[1]),
+        (PlanStep::Color(2), COLORS[2]),
+        (PlanStep::Color(3), COLORS[3]),
         (PlanStep::Floor, Vec3::splat(0.5)),
     ]
     .into_iter()
-    .map(|(step, colour)| (colour, counts(calls(step), 1)))
+    .map(|(step, color)| (color, counts(calls(step), 1)))
     .collect();
     // On a black wall, nothing is to scatter.
-    let bright = walls.iter().filter(|(colour, _)| *colour != Vec3::ZERO);
+    let bright = walls.iter().filter(|(color, _)| *color != Vec3::ZERO);
     let tried: usize = bright.map(|(_, [total, _])| total).sum();
     let scattered: usize = walls.iter().map(|(_, [_, count])| count).sum();
     if tried == 0 {
@@ -155,7 +155,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     } else {
         let is_first_right = judge_rule(&walls, &mut verdict);
         if is_first_right {
-            judge_later(calls(PlanStep::GreyCube), &mut verdict);
+            judge_later(calls(PlanStep::GrayCube), &mut verdict);
         }
         judge_threshold(observed, &mut verdict);
     }
@@ -172,14 +172,14 @@ fn judge_rule(walls: &[(Vec3, [usize; 2])], verdict: &mut SectionVerdict) -> boo
     let fits = |chance: &dyn Fn(Vec3) -> f32| {
         walls
             .iter()
-            .all(|(colour, [total, count])| may_happen(*count, *total, f64::from(chance(*colour))))
+            .all(|(color, [total, count])| may_happen(*count, *total, f64::from(chance(*color))))
     };
-    if fits(&|colour| colour.max_element()) {
+    if fits(&|color| color.max_element()) {
         return true;
     }
     let known = RULES.iter().find(|rule| fits(&rule.chance));
-    let coloured = || walls.iter().filter(|(_, [total, _])| *total > 0);
-    let seen: Vec<_> = coloured()
+    let colored = || walls.iter().filter(|(_, [total, _])| *total > 0);
+    let seen: Vec<_> = colored()
         .map(|(d, [total, count])| {
             let part = *count as f64 / *total as f64;
             format!("{part:.3} where d = ({}, {}, {})", d.x, d.y, d.z)

@@ -23,6 +23,35 @@ const LONGEST_PAGES: [(&str, usize); 11] = [
 /// Words that the glossary replaces.
 const REPLACED_WORDS: [&str; 5] = ["sent out", "send out", "sends out", "looks on", "look on"];
 
+/// Parts of words as they are spelled in Britain; the project writes American English.
+const BRITISH: [&str; 20] = [
+    "colour",
+    "neighbour",
+    "behaviour",
+    "favour",
+    "honour",
+    "normalis",
+    "vectoris",
+    "initialis",
+    "organis",
+    "recognis",
+    "summaris",
+    "minimis",
+    "optimise",
+    "optimising",
+    "optimisation",
+    "judgement",
+    "licence",
+    "catalogue",
+    "centre",
+    "grey",
+];
+
+/// Names that keep their spelling: of misreadings, of what a student's file calls a material, and
+/// of the course framework.
+const KEPT_NAMES: [&str; 5] =
+    ["half-normalised", "not-normalised", "Anodized Grey", "optimise()", "_and_optimise"];
+
 fn words(sentence: &str) -> usize {
     sentence.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
@@ -60,6 +89,26 @@ fn pages_are_short() {
         let words = read(path).split_whitespace().count();
         assert!(words <= most, "{path}: {words} words, {most} at most");
     }
+}
+
+#[test]
+fn spelling_is_american() {
+    let mut faults = String::new();
+    let kinds = [".rs", ".js", ".css", ".html", ".md", ".toml", ".sh", ".py", ".yml", ".hpp"];
+    for (path, text) in &project_files(&kinds) {
+        // What students hand in is theirs.
+        if path.ends_with("pages/words.rs") || path.contains("/tests/field/") {
+            continue;
+        }
+        for (number, line) in (1..).zip(text.lines()) {
+            let kept = |line: String, name: &&str| line.replace(*name, "");
+            let line = KEPT_NAMES.iter().fold(line.to_owned(), kept).to_lowercase();
+            for part in BRITISH.iter().filter(|part| line.contains(**part)) {
+                faults += &format!("{path}:{number}: '{part}' is not American\n");
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
 }
 
 #[test]

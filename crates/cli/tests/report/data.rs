@@ -65,7 +65,7 @@ pub type Interval = [f64; 3];
 /// statistic without its bias.
 pub fn interval(table: &Table, statistic: &dyn Fn(&Table) -> f64) -> Interval {
     let value = statistic(table);
-    let (mut centre, mut variance) = (value, 0.0);
+    let (mut center, mut variance) = (value, 0.0);
     for (size, runs) in table.iter().enumerate() {
         let count = runs.len() as f64;
         let pseudo = |run: usize| {
@@ -75,7 +75,7 @@ pub fn interval(table: &Table, statistic: &dyn Fn(&Table) -> f64) -> Interval {
         };
         let pseudo: Vec<_> = (0..runs.len()).map(pseudo).collect();
         let middle = mean(&pseudo);
-        centre += middle - value;
+        center += middle - value;
         variance +=
             pseudo.iter().map(|p| (p - middle).powi(2)).sum::<f64>() / (count - 1.0) / count;
     }
@@ -86,7 +86,7 @@ pub fn interval(table: &Table, statistic: &dyn Fn(&Table) -> f64) -> Interval {
         other => panic!("{other} runs"),
     };
     let reach = t * variance.sqrt();
-    [value, centre - reach, centre + reach]
+    [value, center - reach, center + reach]
 }
 
 pub fn exp([value, low, high]: Interval) -> Interval {

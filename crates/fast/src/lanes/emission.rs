@@ -153,7 +153,7 @@ pub fn emit_one(seed: u64, photon: u32) -> EmittedPhoton {
 
 /// The radius of the sphere in which points are drawn, 2^31. With such coordinates a word becomes
 /// one in two operations. What is rounded is the same as in the unit sphere, since a power of two
-/// changes no digit, and normalising takes it away.
+/// changes no digit, and normalizing takes it away.
 pub const RADIUS: f32 = 2_147_483_648.0;
 
 /// 2 r - 1 for the number r of `word`, times [`RADIUS`]: exact, with 24 digits.

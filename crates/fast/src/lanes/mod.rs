@@ -9,7 +9,7 @@
 //! - `scattering` gives those that survive the roulette a new direction.
 //! - `wave` is the loop around them.
 //!
-//! [`picture`] traces camera and shadow rays in the same way. `views` and `neighbourhood` tell it
+//! [`picture`] traces camera and shadow rays in the same way. `views` and `neighborhood` tell it
 //! what need not be asked. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths stay the same.** `trace_photon` is the specification. This module may only
@@ -30,7 +30,7 @@ pub mod closest_hit;
 mod draws;
 mod emission;
 mod first_hit;
-mod neighbourhood;
+mod neighborhood;
 pub mod offset;
 mod outlook;
 pub mod picture;

@@ -131,10 +131,10 @@ pub fn aim(direction: Vec3) -> (u32, Vec3) {
     (cell_of(face, shear.x, shear.y), shear)
 }
 
-/// The cell of a point in the unit sphere for [`Outlook::may_go_on`], before it is normalised.
+/// The cell of a point in the unit sphere for [`Outlook::may_go_on`], before it is normalized.
 ///
 /// Its shears are off by a few roundings, for which a cell has its margin. Its face is that of the
-/// normalised direction. Coordinates are drawn as multiples of 2^-23 and only grow by normalising.
+/// normalized direction. Coordinates are drawn as multiples of 2^-23 and only grow by normalizing.
 /// So two that differ still differ by more than 2^-24, to which a unit vector's are rounded.
 #[inline(always)]
 pub fn rough_cell(direction: Vec3) -> u32 {

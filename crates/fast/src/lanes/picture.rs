@@ -153,7 +153,7 @@ struct PictureTracer<'a> {
     hits: Hits,
     shadows: Rays,
     obstacles: Hits,
-    /// The pixels of the waiting shadow rays, and the colours that arrive unless something is in
+    /// The pixels of the waiting shadow rays, and the colors that arrive unless something is in
     /// between.
     shaded: Vec<(usize, Vec3)>,
     colors: Vec<Vec3>,
@@ -252,7 +252,7 @@ impl<'a> PictureTracer<'a> {
         hits.settle(scene, rays, count);
     }
 
-    /// Adds the colours that arrive along the waiting shadow rays.
+    /// Adds the colors that arrive along the waiting shadow rays.
     fn shade(&mut self) {
         let Self { renderer, lanes, views, shadows, obstacles: hits, shaded, colors, .. } = self;
         lanes.run(Closest { scene: &views.all, rays: shadows, hits });

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Sine and cosine of `angle`, in radians and in [0, 2 pi].
 ///
 /// The arithmetic of FreeBSD's msun, of which `libm` is a port (`s_sinf.c`, `k_sinf.c`, `k_cosf.c`;
-/// Sun Microsystems 1993, converted by Ian Lance Taylor, optimised by Bruce D. Evans). It takes the
+/// Sun Microsystems 1993, converted by Ian Lance Taylor, optimized by Bruce D. Evans). It takes the
 /// nearest multiple of pi / 2 off the angle in f64, and sums one polynomial for each function in
 /// f64. A test compares every angle that a photon can draw.
 #[inline(always)]

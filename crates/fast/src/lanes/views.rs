@@ -4,7 +4,7 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::closest_hit::{GROUP, Rays, SharedCorners, mask};
-use super::neighbourhood::Neighbourhood;
+use super::neighborhood::Neighborhood;
 use super::outlook::{self, Outlook};
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
@@ -19,7 +19,7 @@ pub struct Views {
     /// All triangles.
     pub all: SharedCorners,
     /// Where dots may be.
-    pub dots: Neighbourhood,
+    pub dots: Neighborhood,
 }
 
 impl Views {
@@ -32,12 +32,12 @@ impl Views {
         let of_cell = |cell: u32| bits(outlook.candidates(outlook.list(cell)).1);
         let mut of_cells: Vec<u128> = (0..outlook::UNKNOWN).map(of_cell).collect();
         of_cells.push(bits(&(0..triangles as u32).collect::<Vec<_>>()));
-        let dots = Neighbourhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS);
+        let dots = Neighborhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS);
         Self { of_cells, all: SharedCorners::new(scene), dots }
     }
 }
 
-/// Sends rays from `camera` through neighbouring pixels, as
+/// Sends rays from `camera` through neighboring pixels, as
 /// [`photon_mapping::rendering::image_writer::camera_ray`] does.
 pub struct CameraRays<'a> {
     /// The camera.

@@ -5,7 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::Pages;
 use super::plot::{self, Histogram};
 use super::profile::{Axis, LAST_BOUNCE, Profile};
-use crate::judge_list::Judgement;
+use crate::judge_list::Judgment;
 use crate::places::MARGIN;
 use crate::signature::classes;
 use crate::text::rounded;
@@ -36,17 +36,17 @@ impl Pages<'_> {
         })
     }
 
-    /// The photons of `list` beside those of the reading and the misreading of `judgement`. Counts
+    /// The photons of `list` beside those of the reading and the misreading of `judgment`. Counts
     /// are those of the findings.
-    pub(super) fn faces(&self, list: &PhotonList, judgement: &Judgement) -> Markup {
+    pub(super) fn faces(&self, list: &PhotonList, judgment: &Judgment) -> Markup {
         let places = &self.expectations.places;
-        let Judgement { emitted, signature, .. } = judgement;
+        let Judgment { emitted, signature, .. } = judgment;
         let first = list.records.iter().map(|record| record.bounce).min().unwrap_or_default();
         let found = Profile::of(&list.records, places, first);
         let by_class = classes(&found.counts, places);
         let expected =
-            self.profile(judgement.reading.variation, PHOTONS_FOR_CURVES).scaled(*emitted);
-        let misread = judgement.explanation.as_ref().map(|explanation| {
+            self.profile(judgment.reading.variation, PHOTONS_FOR_CURVES).scaled(*emitted);
+        let misread = judgment.explanation.as_ref().map(|explanation| {
             self.profile(explanation.hypothesis.variation, PHOTONS_FOR_MISREADINGS)
                 .scaled(explanation.emitted)
         });

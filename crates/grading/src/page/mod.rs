@@ -17,7 +17,7 @@ use std::sync::{Mutex, OnceLock};
 use image::RgbImage;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::judge_list::{Expectations, Judgement};
+use super::judge_list::{Expectations, Judgment};
 use super::naming::Explanation;
 use super::policy::Policy;
 use super::submission::{Graded, Submission};
@@ -70,16 +70,16 @@ impl<'a> Pages<'a> {
             (sections(grade))
             (findings(grade, advice_on_misreading(graded)))
             (self.pictures(submission, graded))
-            @if let Some((list, judgement)) = &graded.list {
-                (self.faces(list, judgement))
+            @if let Some((list, judgment)) = &graded.list {
+                (self.faces(list, judgment))
             }
         };
         document(&format!("{name}: {}", verdict_in_words(grade.verdict)), POLICY, &body)
     }
 
-    fn verdict(&self, grade: &Grade, list: Option<&(PhotonList, Judgement)>) -> Markup {
+    fn verdict(&self, grade: &Grade, list: Option<&(PhotonList, Judgment)>) -> Markup {
         let best = self.policy.best();
-        let explanation = list.and_then(|(_, judgement)| judgement.explanation.as_ref());
+        let explanation = list.and_then(|(_, judgment)| judgment.explanation.as_ref());
         html! {
             p.verdict.(class_of(grade.verdict)) {
                 span.word { (verdict_in_words(grade.verdict)) }
@@ -90,8 +90,8 @@ impl<'a> Pages<'a> {
                     (thousands(stored)) " photons stored, "
                     @match (grade.emitted, list) {
                         (Some(emitted), _) => { (thousands(emitted)) " emitted." }
-                        (None, Some((_, judgement))) => {
-                            "which fits about " (rounded(judgement.emitted)) " emitted. How many \
+                        (None, Some((_, judgment))) => {
+                            "which fits about " (rounded(judgment.emitted)) " emitted. How many \
                              were is not known, so their shares are judged, not their number."
                         }
                         (None, None) => { "how many were emitted is not known." }
@@ -115,7 +115,7 @@ impl<'a> Pages<'a> {
     fn pictures(&self, submission: &Submission, graded: &Graded) -> Markup {
         let emitted = match (&graded.list, graded.grade.emitted) {
             (_, Some(emitted)) => emitted,
-            (Some((_, judgement)), None) => judgement.emitted as u64,
+            (Some((_, judgment)), None) => judgment.emitted as u64,
             (None, None) => assignment8::PHOTON_COUNT,
         };
         let drawn = graded.list.as_ref().map(|(list, _)| {

@@ -17,7 +17,7 @@ pub const MOST_EMITTED: u64 = 20_000_000;
 const REACH: usize = 18;
 /// About how many pixels a dot has.
 const PIXELS_OF_A_DOT: f64 = 2.0;
-/// A difference of fewer standard deviations than the first has no colour, of the second the full
+/// A difference of fewer standard deviations than the first has no color, of the second the full
 /// one.
 const NONE: f64 = 2.5;
 const FULL: f64 = 6.0;
@@ -68,9 +68,9 @@ pub fn difference(submission: &RgbImage, reference: &RgbImage, plain: &RgbImage)
         let away = (submission - reference) / spread;
         let share = strength(away);
         let [r, g, b] = plain.get_pixel(x, y).0.map(f64::from);
-        let grey = 30.0 + (r + g + b) / 6.0;
-        let colour = if away > 0.0 { MORE } else { FEWER };
-        *pixel = Rgb(colour.map(|channel| (grey + share * (channel - grey)) as u8));
+        let gray = 30.0 + (r + g + b) / 6.0;
+        let color = if away > 0.0 { MORE } else { FEWER };
+        *pixel = Rgb(color.map(|channel| (gray + share * (channel - gray)) as u8));
     }
     picture
 }
@@ -92,7 +92,7 @@ pub fn enlarged(picture: &RgbImage, plain: &RgbImage) -> RgbImage {
     larger
 }
 
-/// How strong the colour is of what is `away` standard deviations from its expectation, from 0 to
+/// How strong the color is of what is `away` standard deviations from its expectation, from 0 to
 /// 1.
 pub fn strength(away: f64) -> f64 {
     ((away.abs() - NONE) / (FULL - NONE)).clamp(0.0, 1.0)

@@ -107,7 +107,7 @@ fn tick(at: &f64) -> String {
 }
 
 /// The cells of `facet`, the world's x or y to the right and y or z up: in each, how many times as
-/// many photons as expected it has, in colour beyond two standard deviations. `found`, `expected`
+/// many photons as expected it has, in color beyond two standard deviations. `found`, `expected`
 /// and `variance` are by cell of the scene.
 pub fn map(
     facet: &FacetCells,

@@ -27,7 +27,7 @@ pub struct FoundDots {
 enum Style {
     /// These channels are raised.
     Raised([bool; 3]),
-    /// The colour is replaced by this one.
+    /// The color is replaced by this one.
     Replaced([u8; 3]),
 }
 
@@ -133,7 +133,7 @@ fn take_apart(pixels: &[[u8; 3]], view: &View) -> Attempt {
             Style::Raised(channels) => (0..3).all(|channel| {
                 if channels[channel] { raised(at)[channel] } else { !differs(at, channel) }
             }),
-            // A dot may happen to have the colour of what it lies on.
+            // A dot may happen to have the color of what it lies on.
             Style::Replaced(color) => pixels[at] == color && color.iter().any(|c| *c > DARK),
         };
         let mut red = vec![false; PIXELS];

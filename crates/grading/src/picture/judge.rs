@@ -14,7 +14,7 @@ use crate::verdict::Finding;
 
 /// What the dots of a picture say.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PictureJudgement {
+pub struct PictureJudgment {
     /// Whether there are dots at all.
     pub has_dots: bool,
     /// The findings.
@@ -29,7 +29,7 @@ pub struct PictureJudgement {
     pub p_value: Option<f64>,
 }
 
-impl PictureJudgement {
+impl PictureJudgment {
     /// Whether there are dots, but not those of the handout.
     pub fn is_incorrect(&self) -> bool {
         self.has_dots && self.findings.iter().any(Finding::is_fault)
@@ -43,7 +43,7 @@ pub fn judge_dots(
     view: &View,
     emitted: Option<f64>,
     expectations: &PictureExpectations,
-) -> PictureJudgement {
+) -> PictureJudgment {
     let mut counts = vec![0.0; view.cells.len()];
     for (pixel, _) in red.iter().enumerate().filter(|(_, is_red)| **is_red) {
         if let Some(patch) = view.patch(pixel) {
@@ -54,7 +54,7 @@ pub fn judge_dots(
     let all: f64 = view.patches.iter().map(|patch| f64::from(patch.pixels)).sum();
     let picture = OfPicture::new(&counts, emitted, view, expectations);
     let elsewhere = red.iter().filter(|is_red| **is_red).count() as f64 - found;
-    let early = |has_dots, finding: Finding, explanation| PictureJudgement {
+    let early = |has_dots, finding: Finding, explanation| PictureJudgment {
         has_dots,
         findings: vec![finding],
         explanation,
@@ -81,7 +81,7 @@ pub fn judge_dots(
     judge_pattern(&picture)
 }
 
-fn judge_pattern(picture: &OfPicture) -> PictureJudgement {
+fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
     let mut trial = best_trial(picture);
     let mut standoff = None;
     let is_off = trial.p_value < RARE && picture.may_be_off_surface(&trial);
@@ -116,7 +116,7 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgement {
             findings.push(words::self_hits());
         }
     }
-    PictureJudgement {
+    PictureJudgment {
         has_dots: true,
         findings,
         explanation,

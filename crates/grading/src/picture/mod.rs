@@ -18,7 +18,7 @@ use std::path::Path;
 use dot_size::DotSize;
 use dots::find_dots;
 use expectations::PictureExpectations;
-use judge::{PictureJudgement, judge_dots};
+use judge::{PictureJudgment, judge_dots};
 
 /// Judges the picture `path`, for which `emitted` photons were emitted, if that is known.
 ///
@@ -28,14 +28,14 @@ pub fn judge_picture(
     path: &Path,
     emitted: Option<f64>,
     expectations: &PictureExpectations,
-) -> Result<PictureJudgement, String> {
+) -> Result<PictureJudgment, String> {
     let picture = reading::read_picture(path)?;
     let dots = find_dots(&picture, &expectations.view, || expectations.shifted())?;
     let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
     if let Some(size) = DotSize::new(&dots.red, view).filter(DotSize::is_too_large) {
         return Err(size.reason());
     }
-    let mut judgement = judge_dots(&dots.red, view, emitted, expectations);
-    judgement.findings.extend(dots.remarks);
-    Ok(judgement)
+    let mut judgment = judge_dots(&dots.red, view, emitted, expectations);
+    judgment.findings.extend(dots.remarks);
+    Ok(judgment)
 }

@@ -126,7 +126,7 @@ fn check(bytes: &[u8], picture: DynamicImage) -> Result<RgbImage, String> {
     Ok(rgb)
 }
 
-/// The PNG file `bytes` without what does not change its pixels: colour profiles and texts may
+/// The PNG file `bytes` without what does not change its pixels: color profiles and texts may
 /// unpack to far more than they are.
 fn pixels_alone(bytes: &[u8]) -> Vec<u8> {
     let kept = chunks(bytes).filter(|chunk| {

@@ -19,7 +19,7 @@ use photon_mapping::scene::ray::IntersectionState;
 const PATCH: usize = 16;
 /// Cubes around pixels that are farther apart than this, in pixels, share nothing: the closest
 /// facet is 3.1 units away, where pixels are 0.003 apart, and a cube is 0.006 wide.
-const NEIGHBOURS: isize = 2;
+const NEIGHBORS: isize = 2;
 /// How finely the parts that two cubes share are told apart.
 pub const SHARES: usize = 16;
 /// No patch.
@@ -218,8 +218,8 @@ impl View {
         // window has too much, the points themselves sort out.
         let window = |at: f32, size: u32| {
             let at = at * size as f32 - self.shift;
-            let low = (at - NEIGHBOURS as f32).ceil().max(0.0) as usize;
-            let high = (at + NEIGHBOURS as f32).floor().min(size as f32 - 1.0);
+            let low = (at - NEIGHBORS as f32).ceil().max(0.0) as usize;
+            let high = (at + NEIGHBORS as f32).floor().min(size as f32 - 1.0);
             low..(high + 1.0).max(0.0) as usize
         };
         for row in window(y, HEIGHT) {
@@ -251,8 +251,8 @@ impl View {
             let facet = self.patches[patch].facet_in_sight;
             let (column, row) =
                 ((pixel % WIDTH as usize) as isize, (pixel / WIDTH as usize) as isize);
-            for down in -NEIGHBOURS..=NEIGHBOURS {
-                for right in -NEIGHBOURS..=NEIGHBOURS {
+            for down in -NEIGHBORS..=NEIGHBORS {
+                for right in -NEIGHBORS..=NEIGHBORS {
                     let (row, column) = (row + down, column + right);
                     if !(0..HEIGHT as isize).contains(&row)
                         || !(0..WIDTH as isize).contains(&column)

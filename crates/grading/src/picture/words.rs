@@ -1,5 +1,6 @@
 //! What is said of a picture.
 
+use crate::facts::ENOUGH_PHOTONS;
 use crate::limits::{FEW_EMITTED, NUMBER_LEEWAY};
 use crate::text::rounded;
 use crate::verdict::{Finding, Weight};
@@ -81,7 +82,7 @@ pub(super) fn all_red() -> Finding {
 /// told how many photons fit them.
 pub(super) fn enough(found: f64, fitted: f64, are_fair: bool) -> Finding {
     storage(
-        "enough photons",
+        ENOUGH_PHOTONS,
         &format!("the dots of at least {} photons emitted", rounded(FEW_EMITTED)),
         if are_fair {
             format!("{} red pixels, of about {} photons emitted", rounded(found), rounded(fitted))

@@ -57,7 +57,7 @@ pub fn vertex(line: &ObjLine) -> Result<DVec3, String> {
         let found = more.join(" ");
         return Err(format!("expected x, y, z, a weight and a color after 'v', found '{found}'"));
     }
-    // Three numbers more are a colour; the first of one or four is a weight.
+    // Three numbers more are a color; the first of one or four is a weight.
     match more.as_slice() {
         [weight] | [weight, _, _, _] if weight.parse() != Ok(1.0) => {
             Err(format!("expected the weight 1 after 'v', found '{weight}'"))

@@ -132,7 +132,7 @@ impl Definition {
 fn response(line: &ObjLine) -> Result<Vec3, String> {
     let words: Vec<&str> = line.words().collect();
     let mut words = match words.as_slice() {
-        [grey] => vec![*grey; 3],
+        [gray] => vec![*gray; 3],
         _ => words,
     }
     .into_iter();

@@ -55,7 +55,7 @@ pub struct ModelTriangle {
 pub struct ModelLight {
     /// Where it stands, not yet rounded to f32.
     pub position: DVec3,
-    /// Its colour.
+    /// Its color.
     pub color: Vec3,
 }
 

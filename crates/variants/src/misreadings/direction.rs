@@ -146,7 +146,7 @@ pub(super) fn transformation() -> Vec<Entry> {
                 (
                     "photons leave the right wall along its normal: there t and b are left at zero",
                     Variation {
-                        reading: never_parallel(TangentBasis::Normalised),
+                        reading: never_parallel(TangentBasis::Normalized),
                         zero_frame: true,
                         ..plain
                     },
@@ -161,7 +161,7 @@ pub(super) fn transformation() -> Vec<Entry> {
              threshold.",
             [(
                 "photons leave the right wall in directions that are not numbers",
-                Variation { reading: never_parallel(TangentBasis::Normalised), ..plain },
+                Variation { reading: never_parallel(TangentBasis::Normalized), ..plain },
             )],
         ),
         Entry::new(
@@ -169,7 +169,7 @@ pub(super) fn transformation() -> Vec<Entry> {
             section,
             "Normalize both t and b, or neither: one of them alone squeezes directions to one \
              side.",
-            [("b is normalized, and t is not", of_frame(Transformation::HalfNormalised))],
+            [("b is normalized, and t is not", of_frame(Transformation::HalfNormalized))],
         ),
         Entry::new(
             "transposed-frame",

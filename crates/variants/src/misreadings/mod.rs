@@ -72,7 +72,7 @@ pub fn misreadings() -> Vec<Hypothesis> {
     // Whoever misreads one step may take t and b as they are written.
     let uses_frame = |hypothesis: &&Hypothesis| {
         let Hypothesis { id, variation, .. } = hypothesis;
-        variation.reading.tangent_basis == TangentBasis::Normalised
+        variation.reading.tangent_basis == TangentBasis::Normalized
             && matches!(variation.frame, Transformation::AsRead | Transformation::Columns(_))
             && variation.hemisphere.uses_frame()
             && !["nan-frame", "no-absolute-value"].contains(id)

@@ -71,9 +71,9 @@ fn of_one_photon(frame: Mat3, numbers: Numbers) -> Vec<(Section, &'static str, V
         let tangent = n.cross(axis);
         if let Some(unit_tangent) = tangent.try_normalize() {
             let literal = Mat3::from_cols(tangent, n.cross(tangent), n);
-            let normalised = Mat3::from_cols(unit_tangent, n.cross(unit_tangent), n);
+            let normalized = Mat3::from_cols(unit_tangent, n.cross(unit_tangent), n);
             let other_axis = "t is the cross product of n with another axis";
-            all.push((transformation, other_axis, normalised * local));
+            all.push((transformation, other_axis, normalized * local));
             all.push((transformation, "t and b are not normalized", literal * local));
         }
     }
@@ -110,7 +110,7 @@ impl Variation {
                 let [x, y, z] = columns.map(|column| frame.col(column));
                 of(Mat3::from_cols(x, y, z))
             }
-            (Transformation::HalfNormalised, _) => of(self.tangent_frame(n)),
+            (Transformation::HalfNormalized, _) => of(self.tangent_frame(n)),
             (Transformation::AsRead, _) => {
                 let is_told = hemisphere.uses_frame() || hemisphere == Hemisphere::AlongNormal;
                 (is_told && hemisphere != Hemisphere::Cosine).then(|| of(frame)).flatten()

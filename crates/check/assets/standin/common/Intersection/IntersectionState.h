@@ -24,7 +24,7 @@ struct IntersectionState {
     float currentIOR;
     std::vector<float> primitiveIntersectionWeights;
 
-    // The corners' normals, blended and normalised. It is never turned towards the ray.
+    // The corners' normals, blended and normalized. It is never turned towards the ray.
     glm::vec3 ComputeNormal() const {
         glm::vec3 blended(0.f);
         for (size_t i = 0; i < primitiveIntersectionWeights.size(); ++i) {

@@ -1,4 +1,4 @@
-// Stand-in: direct light. The harness asks for no colour, so this has none.
+// Stand-in: direct light. The harness asks for no color, so this has none.
 #pragma once
 
 #include "common/Rendering/Renderer.h"

@@ -1,4 +1,4 @@
-// Stand-in: a ray. The constructor normalises the direction, SetRayDirection does not. So it is in
+// Stand-in: a ray. The constructor normalizes the direction, SetRayDirection does not. So it is in
 // the framework.
 #pragma once
 

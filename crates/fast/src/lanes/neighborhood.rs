@@ -13,12 +13,12 @@ const BITS: usize = 64;
 /// A bit for every cell of a grid, by a hash of its place: whether a point in it may be near a
 /// photon.
 #[derive(Clone, Debug)]
-pub struct Neighbourhood {
+pub struct Neighborhood {
     words: Vec<u32>,
     shift: u32,
 }
 
-impl Neighbourhood {
+impl Neighborhood {
     /// The cells that the cubes of half edge `radius` around the photons of `map` reach into.
     ///
     /// Rounding is monotonic, and so are the cells along an axis. So the cell of a point between
@@ -55,7 +55,7 @@ impl Neighbourhood {
 
     #[inline(always)]
     fn place(&self, [x, y, z]: [i32; 3]) -> (usize, u32) {
-        // Three large odd numbers spread neighbouring cells; the top bits are the best mixed.
+        // Three large odd numbers spread neighboring cells; the top bits are the best mixed.
         let mixed = (x as u32)
             .wrapping_mul(0x9E37_79B1)
             .wrapping_add((y as u32).wrapping_mul(0x85EB_CA77))
@@ -85,18 +85,18 @@ mod tests {
             let mut point = || Vec3::from_array([0; 3].map(|_| scale * (random() - 0.5)));
             let photons: Vec<Vec3> = (0..30).map(|_| point()).collect();
             let map = PhotonMap::new(photons.iter().copied());
-            let neighbourhood = Neighbourhood::new(&map, RADIUS);
+            let neighborhood = Neighborhood::new(&map, RADIUS);
             for photon in photons {
                 let aside = [RADIUS, -RADIUS, 0.999 * RADIUS, 0.0, 0.7 * RADIUS, 1.001 * RADIUS];
                 for (x, y) in aside.iter().zip(aside.iter().cycle().skip(1)) {
                     let point = photon + Vec3::new(*x, *y, 0.5 * x);
                     if map.any_within_cube(point, RADIUS) {
                         near += 1;
-                        assert!(neighbourhood.may_have(point), "{point:?}");
+                        assert!(neighborhood.may_have(point), "{point:?}");
                     }
                 }
             }
-            far += (0..100).filter(|_| !neighbourhood.may_have(point())).count();
+            far += (0..100).filter(|_| !neighborhood.may_have(point())).count();
         }
         assert!(near > 10_000 && far > 10_000, "{near} {far}");
     }
@@ -104,6 +104,6 @@ mod tests {
     #[test]
     fn every_point_is_near_what_is_not_a_number() {
         let map = PhotonMap::new([Vec3::NAN, Vec3::ONE]);
-        assert!(Neighbourhood::new(&map, 0.003).may_have(Vec3::splat(7.0)));
+        assert!(Neighborhood::new(&map, 0.003).may_have(Vec3::splat(7.0)));
     }
 }

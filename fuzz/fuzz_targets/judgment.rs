@@ -1,4 +1,4 @@
-//! A whole judgement of whatever is handed in.
+//! A whole judgment of whatever is handed in.
 #![no_main]
 
 use std::sync::OnceLock;
