@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use grading::text::printable;
 use serde::Serialize;
 
 use crate::compile::Workshop;
@@ -56,7 +57,7 @@ impl BuildError {
             [] => String::new(),
             headers => format!("; included, but not handed in: {}", headers.join(", ")),
         };
-        format!("{place}{}{missing}{headers}", self.message)
+        printable(&format!("{place}{}{missing}{headers}", self.message))
     }
 }
 

@@ -99,6 +99,21 @@ fn broken(class: &Path, student: &str) -> PathBuf {
 }
 
 #[test]
+fn a_name_of_two_lines_is_one_line() {
+    let folder = folder();
+    broken(folder.path(), "amy\nbob: correct, 4 of 4 points/src\nbob: correct, 4 of 4 points");
+    let checked = run_line("check {} --quiet", &[folder.path()]);
+    let errors = String::from_utf8_lossy(&checked.get_output().stderr).into_owned();
+    if errors.contains("no C++ compiler") || errors.contains("does not find glm") {
+        assert!(std::env::var_os("CI").is_none(), "{errors}");
+        eprintln!("skipped: {errors}");
+        return;
+    }
+    let text = stdout(checked.success());
+    assert!(text.contains("builds: no: ") && !text.contains("\nbob"), "{text}");
+}
+
+#[test]
 fn what_cannot_be_written_costs_no_other_its_page() {
     let folder = folder();
     let (class, pages) = (folder.path().join("class"), folder.path().join("pages"));
