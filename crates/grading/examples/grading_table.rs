@@ -157,7 +157,10 @@ fn correct_submission(index: u64, low: f64, high: f64, expectations: &Expectatio
         0 => simulation.trace_with(0..emitted, Drand48::new(index)),
         1 => simulation.trace_with(0..emitted, FifteenBits(index as u32)),
         2 => simulation.trace_one_by_one(0..emitted, |photon| halton(photon, index)),
-        _ => simulation.trace_one_by_one(0..emitted, |photon| stratified(photon, emitted, index)),
+        _ => {
+            let strata = strata(emitted, index);
+            simulation.trace_one_by_one(0..emitted, |photon| stratified(photon, &strata, index))
+        }
     };
     let off = settings.one_of(&[0.0, 0.0, 1e-4, 7e-3]);
     shift(&mut records, off, settings.one_of(&[true, false]), &expectations.places);
@@ -227,16 +230,27 @@ fn radical_inverse(mut number: u64, base: u64) -> f64 {
     inverse
 }
 
-/// The numbers of one photon, where the first five are stratified: as many strata as photons, each
-/// with one photon, and the photons in another order for every number.
-fn stratified(photon: u64, emitted: u64, seed: u64) -> impl FnMut() -> f32 {
-    // Primes that divide no number of photons here, so that every stratum has its turn.
-    let mut steps = [1, 104_729, 15_485_863, 32_452_843, 49_979_687].into_iter();
+/// For each of a photon's first five numbers, the strata in a random order: as many as photons.
+fn strata(emitted: u64, seed: u64) -> [Vec<u64>; 5] {
+    let mut random = photon_random(seed, 1 << 31);
+    std::array::from_fn(|_| {
+        let mut order: Vec<u64> = (0..emitted).collect();
+        for last in (1..order.len()).rev() {
+            let other = (f64::from(random()) * (last + 1) as f64) as usize;
+            order.swap(last, other);
+        }
+        order
+    })
+}
+
+/// The numbers of one photon, each of the first five within its stratum.
+fn stratified(photon: u64, strata: &[Vec<u64>; 5], seed: u64) -> impl FnMut() -> f32 {
+    let mut of_photon = strata.each_ref().map(|order| order[photon as usize]).into_iter();
+    let of_one = strata[0].len() as f64;
     let mut random = photon_random(seed, photon);
     move || {
         let within = f64::from(random());
-        let stratum = steps.next().map(|step| (photon * step % emitted) as f64);
-        let number = stratum.map_or(within, |stratum| (stratum + within) / emitted as f64);
+        let number = of_photon.next().map_or(within, |stratum| (stratum as f64 + within) / of_one);
         (number as f32).min(1.0_f32.next_down())
     }
 }

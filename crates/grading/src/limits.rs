@@ -4,7 +4,7 @@
 
 /// A submission that is as strange as this by chance alone is called incorrect, in its places, in
 /// its bounces, or in its marks. Of ten thousand submissions that are correct, one may be: these
-/// tests and [`RATE_OF_WAYS`], in two parts, with the number of photons and without, add up to
+/// tests and `RATE_OF_WAYS`, in two parts, with the number of photons and without, add up to
 /// that.
 pub const SIGNIFICANCE: f64 = 1e-5;
 /// A list with which a misreading would show what is seen, or something stranger, less often than
