@@ -99,7 +99,9 @@ class Page {
     const { run, view, only, lit, kinds } = this;
     const mode = $("colors").value;
     const number = (id, otherwise) => ($(id).value === "" ? otherwise : Number($(id).value));
-    const from = number("from", 0), to = number("to", Infinity);
+    const to = number("to", Infinity);
+    // Dots of a list without numbers have -1: only a range hides them.
+    const from = number("from", to === Infinity ? -1 : 0);
     const names = BOUNCE_LOOKS.map((_, i) => (i === 3 ? "bounce 4 or more" : `bounce ${i + 1}`));
     // For each way to color: the looks, those of the legend with their names, and a dot's look.
     const ways = {
@@ -115,6 +117,7 @@ class Page {
       (surface === null || surface === dot.surface) && dot.bounce >= low && dot.bounce <= high;
     const looks = new Uint8Array(2 * this.count), dot = {};
     const isLarge = mode === "kind" && this.differing <= MOST_LARGE;
+    const firstExtra = run.stored + (run.sections.moved_index?.length ?? 0);
     let shown = 0;
     for (let i = 0; i < this.count; i++) {
       if (i >= run.stored && mode !== "kind") break;
@@ -125,7 +128,8 @@ class Page {
       if (isHidden) continue;
       looks[2 * i] = codes[styleOf(i, dot)];
       looks[2 * i + 1] = lit && isIn(lit, dot) ? 2 : isLarge && kinds[i] ? 3 : 1;
-      shown++;
+      // A moved photon has two dots.
+      if (i < run.stored || i >= firstExtra) shown++;
     }
     this.looks = looks;
     $("shown").textContent =

@@ -26,11 +26,12 @@ const panelMethods = {
   open(photon, bounce, name) {
     const { run } = this, path = run.pathOfPhoton(photon);
     if (path < 0) {
-      const why = photon >= run.emitted
-        ? `expected a number below ${thousands(run.emitted)}`
-        : `it stores no photon${run.keptOf > run.stored ? ", or the page leaves it out" : ""}`;
+      if (photon >= run.emitted) {
+        return this.say(`Expected a number below ${thousands(run.emitted)}, found ${photon}.`);
+      }
+      const orLeftOut = run.keptOf > run.stored ? ", or the page leaves it out" : "";
       return this.say(
-        `Photon ${thousands(photon)} has no story here: ${why}. ` +
+        `Photon ${thousands(photon)} has no story here: it stores no photon${orLeftOut}. ` +
           `Run photon-mapping explore --photon ${photon} to get it.`);
     }
     this.say("");

@@ -101,6 +101,7 @@ fn a_submission_shows_where_it_parts() {
     list.records.remove(500);
     let mut extra = list.records[900];
     extra.position.z += 0.5;
+    (extra.photon, extra.bounce, extra.surface) = (u32::MAX, u16::MAX, u16::MAX);
     list.records.insert(900, extra);
     let other = submission("mine.csv");
     let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
@@ -115,6 +116,9 @@ fn a_submission_shows_where_it_parts() {
     assert_eq!(browser.run("page.view.layers.moved.count"), 1);
     // So few dots that differ are large: the one that moved at both of its places.
     assert_eq!(browser.run("page.looks.filter((look, i) => i % 2 && look === 3).length"), 4);
+    // A dot of a list without numbers is shown, too, and the one that moved counts once.
+    let shown = browser.text("document.getElementById('shown').textContent");
+    assert_eq!(shown.replace(',', ""), format!("{} photons shown.", all + 1));
     // Elsewhere, and back by the button.
     browser.press("n");
     browser.click_on("#divergence");
