@@ -57,8 +57,9 @@ const boxMethods = {
 
   /** What stands in for the box where there is no WebGL. */
   showPicture() {
+    const whose = this.run.comparison ? "the reference's picture" : "the picture";
     $("trouble").textContent =
-      "This browser has no WebGL2, so you see the picture instead of the box. " +
+      `This browser has no WebGL2, so you see ${whose} instead of the box. ` +
       "The table and the stories work.";
     $("picture").src = this.run.picture;
     $("trouble").hidden = $("picture").hidden = false;

@@ -138,6 +138,17 @@ fn a_submission_shows_where_it_parts() {
 }
 
 #[test]
+fn without_webgl_it_is_told_whose_picture_is_shown() {
+    let Some(browser) = launch(false) else { return };
+    let reference = traced("");
+    let same =
+        ListComparison::new(submission("a"), reference.list(), reference.list(), &reference.run);
+    browser.open(&write_page("flat", &reference.exploration(Some(&same)).page()), "");
+    let told = browser.text("document.getElementById('trouble').textContent");
+    assert!(told.contains("the reference's picture"), "{told}");
+}
+
+#[test]
 fn hostile_names_stay_names() {
     let Some(browser) = launch(true) else { return };
     let mut reference = traced("");
