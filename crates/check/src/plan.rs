@@ -86,34 +86,39 @@ pub fn wall_normals() -> Vec<Vec3> {
     .to_vec()
 }
 
+/// The steps that probe what is stored.
+pub(crate) const STORAGE: [PlanStep; 9] = [
+    PlanStep::StoreFirst,
+    PlanStep::StoreLater(2),
+    PlanStep::StoreLater(3),
+    PlanStep::StoreMiss,
+    PlanStep::Remaining(-1),
+    PlanStep::Remaining(0),
+    PlanStep::Remaining(1),
+    PlanStep::Remaining(1000),
+    PlanStep::GrowPath,
+];
+/// The steps that probe the roulette.
+pub(crate) const SCATTERING: [PlanStep; 10] = [
+    PlanStep::Black,
+    PlanStep::White,
+    PlanStep::Color(0),
+    PlanStep::Color(1),
+    PlanStep::Color(2),
+    PlanStep::Color(3),
+    PlanStep::GrayCube,
+    PlanStep::Threshold(-1024),
+    PlanStep::Threshold(0),
+    PlanStep::Threshold(1024),
+];
+
 /// The steps, in the order in which they are carried out.
 pub fn steps() -> Vec<PlanStep> {
-    let mut steps = vec![
-        PlanStep::Emit,
-        PlanStep::EmitCorner,
-        PlanStep::EmitOnSphere,
-        PlanStep::EmitZero,
-        PlanStep::StoreFirst,
-        PlanStep::StoreLater(2),
-        PlanStep::StoreLater(3),
-        PlanStep::StoreMiss,
-        PlanStep::Remaining(-1),
-        PlanStep::Remaining(0),
-        PlanStep::Remaining(1),
-        PlanStep::Remaining(1000),
-        PlanStep::GrowPath,
-        PlanStep::Black,
-        PlanStep::White,
-        PlanStep::Color(0),
-        PlanStep::Color(1),
-        PlanStep::Color(2),
-        PlanStep::Color(3),
-        PlanStep::GrayCube,
-        PlanStep::Threshold(-1024),
-        PlanStep::Threshold(0),
-        PlanStep::Threshold(1024),
-        PlanStep::Floor,
-    ];
+    let mut steps =
+        vec![PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
+    steps.extend(STORAGE);
+    steps.extend(SCATTERING);
+    steps.push(PlanStep::Floor);
     steps.extend(wall_normals().into_iter().map(PlanStep::Wall));
     steps.push(PlanStep::Whole);
     steps

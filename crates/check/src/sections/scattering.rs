@@ -4,23 +4,10 @@ use glam::Vec3;
 
 use super::SectionVerdict;
 use crate::events::Call;
-use crate::plan::{COLORS, PlanStep};
+use crate::plan::{COLORS, PlanStep, SCATTERING};
 use crate::run::Observed;
 use crate::statistics::{SIGMAS, may_happen};
 use variants::section::Section;
-
-const STEPS: [PlanStep; 10] = [
-    PlanStep::Black,
-    PlanStep::White,
-    PlanStep::Color(0),
-    PlanStep::Color(1),
-    PlanStep::Color(2),
-    PlanStep::Color(3),
-    PlanStep::GrayCube,
-    PlanStep::Threshold(-1024),
-    PlanStep::Threshold(0),
-    PlanStep::Threshold(1024),
-];
 
 const MAXIMUM: &str = "Equation (1): P_r = max(d_r, d_g, d_b).";
 const ROULETTE: &str = "Scatter only if a new random number in [0, 1) is less than P_r, which \
@@ -144,7 +131,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     let tried: usize = bright.map(|(_, [total, _])| total).sum();
     let scattered: usize = walls.iter().map(|(_, [_, count])| count).sum();
     if tried == 0 {
-        if STEPS.iter().all(|step| observed.death(*step).is_none()) {
+        if SCATTERING.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("no photon hit anything: TracePhoton does not call Trace");
         }
     } else if scattered == 0 {
@@ -159,7 +146,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         }
         judge_threshold(observed, &mut verdict);
     }
-    verdict.finish(observed, "TracePhoton", &STEPS, told)
+    verdict.finish(observed, "TracePhoton", &SCATTERING, told)
 }
 
 /// Of the calls with a hit number `hit`, from 1: how many there are, and how many scatter there.

@@ -4,24 +4,12 @@ use glam::Vec3;
 
 use super::SectionVerdict;
 use crate::events::{Call, StepLog, Trace};
-use crate::plan::{INTENSITY, PlanStep};
+use crate::plan::{INTENSITY, PlanStep, STORAGE};
 use crate::run::Observed;
 use variants::section::Section;
 
 /// A position this far off the surface still shows the same dots.
 const OFF_SURFACE: f32 = 7.1e-3;
-
-const STEPS: [PlanStep; 9] = [
-    PlanStep::StoreFirst,
-    PlanStep::StoreLater(2),
-    PlanStep::StoreLater(3),
-    PlanStep::StoreMiss,
-    PlanStep::Remaining(-1),
-    PlanStep::Remaining(0),
-    PlanStep::Remaining(1),
-    PlanStep::Remaining(1000),
-    PlanStep::GrowPath,
-];
 
 const IN_EVERY_CALL: &str =
     "Call TracePhoton for the scattered ray in every call, not only in the first.";
@@ -34,13 +22,13 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         |step: PlanStep| -> &[Call] { observed.step(step).map_or(&[], |log| log.calls.as_slice()) };
     let ended =
         |step: PlanStep| -> &[Call] { observed.step(step).map_or(&[], StepLog::ended_calls) };
-    let is_seen = STEPS.iter().any(|step| !calls(*step).is_empty());
-    let asks = STEPS.iter().any(|step| calls(*step).iter().any(|call| call.rays() > 0));
+    let is_seen = STORAGE.iter().any(|step| !calls(*step).is_empty());
+    let asks = STORAGE.iter().any(|step| calls(*step).iter().any(|call| call.rays() > 0));
     if !is_seen {
-        if STEPS.iter().all(|step| observed.death(*step).is_none()) {
+        if STORAGE.iter().all(|step| observed.death(*step).is_none()) {
             verdict.not_reached("TracePhoton was not called");
         }
-    } else if !asks && STEPS.iter().all(|step| observed.death(*step).is_none()) {
+    } else if !asks && STORAGE.iter().all(|step| observed.death(*step).is_none()) {
         let found = "TracePhoton never calls storedScene->Trace with a state".to_owned();
         let advice =
             "Call storedScene->Trace(photonRay, &state) below the line that sets currentIOR.";
@@ -60,7 +48,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
             verdict.fault(None, found, "End TracePhoton where Trace returns false.");
         }
     }
-    if STEPS.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
+    if STORAGE.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
         verdict.remarks.push(
             "TracePhoton takes other arguments than the framework's, so paths that start with two \
              elements were not tried"
@@ -76,7 +64,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         && [PlanStep::Black, PlanStep::StoreMiss]
             .into_iter()
             .all(|step| observed.death(step).is_none());
-    let own: Vec<_> = STEPS
+    let own: Vec<_> = STORAGE
         .into_iter()
         .filter(|step| match is_on_black_wall(*step) {
             true => !stores_before_dying,
