@@ -322,4 +322,8 @@ fn a_few_photons_get_no_points() {
         let text = stdout(run_line("grade {}", &[&path]).success());
         assert!(text.contains("undecided, needs a look, 0 of 4 points"), "{text}");
     }
+    run_line("render --photons 1000 --quiet --out {}", &[folder.path()]).success();
+    let picture = folder.path().join("assignment8.png");
+    let text = stdout(run_line("grade {}", &[&picture]).success());
+    assert!(text.contains("undecided, needs a look, 0 of 4 points"), "{text}");
 }
