@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use crate::error::CliError;
 use crate::output;
@@ -79,7 +80,8 @@ fn refuse_others(folder: &Path, files: &[String], extension: &str) -> Result<(),
 
 /// The program, the day in UTC, and the command line unless it names who is to stay `anonymous`.
 pub fn made_by(is_anonymous: bool) -> String {
-    let day = jiff::Timestamp::now().strftime("%Y-%m-%d");
+    let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    let day = &now[.."2026-01-01".len()];
     let words: Vec<String> =
         std::env::args().skip(1).map(|word| word.replace(['\n', '\r'], " ")).collect();
     let command = match is_anonymous {
