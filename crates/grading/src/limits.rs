@@ -252,28 +252,6 @@ pub(crate) mod own {
     pub(crate) const ABOVE_CHANCE: f64 = 7.0;
 }
 
-/// The same photons twice in a class.
-pub(crate) mod twins {
-    /// Of the cells that a list's photons lie in, so many with the smallest hashes stand for all.
-    pub(crate) const KEPT: usize = 1024;
-    /// Fewer different cells say nothing, nor do fewer that two lists share.
-    pub(crate) const FEWEST: usize = 20;
-    pub(crate) const FEWEST_SHARED: usize = 10;
-    /// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
-    /// long lists are all alike.
-    pub(crate) const LARGE_CELL: f32 = 1e-2;
-    pub(crate) const SMALL_CELL: f32 = 1e-3;
-    /// Longer lists are compared in small cells alone.
-    pub(crate) const MOST_IN_LARGE_CELLS: usize = 60_000;
-    /// Of all cells that one of two lists has, this part is in both only if they have the same
-    /// photons. Two runs of MOST_IN_LARGE_CELLS records share 0.32 of the large cells.
-    pub(crate) const SAME: f64 = 0.45;
-    /// Of the small cells of the shorter list, the other has this part only if it has part of its
-    /// photons. Two runs of MOST_FOR_PART records share 0.03.
-    pub(crate) const PART: f64 = 0.2;
-    pub(crate) const MOST_FOR_PART: usize = 300_000;
-}
-
 /// The number of photons that fits best.
 pub(crate) mod expected {
     /// The numbers of photons emitted between which it is sought, where it is not known.

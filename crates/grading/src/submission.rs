@@ -16,7 +16,6 @@ use super::picture::reading::read_picture;
 use super::picture::view::{PIXELS, View};
 use super::policy::Policy;
 use super::text::{printable, rounded};
-use super::twins::Fingerprint;
 use super::verdict::{Finding, Grade, Verdict, Weight};
 use crate::limits::submission::{FEW_STORED, FEWEST_DOTS, TOGETHER};
 use photon_list::error::{ListError, Reason};
@@ -57,15 +56,13 @@ pub struct Graded {
     pub grade: Grade,
     /// The list, if it could be read, with what was concluded from it.
     pub list: Option<(PhotonList, Judgment)>,
-    /// What tells its photons from others'.
-    pub fingerprint: Option<Fingerprint>,
     /// Whether a file could not be read, which may be over soon.
     pub try_again: bool,
 }
 
 impl Graded {
     fn new(grade: Grade) -> Self {
-        Self { grade, list: None, fingerprint: None, try_again: false }
+        Self { grade, list: None, try_again: false }
     }
 }
 
@@ -92,9 +89,7 @@ pub fn grade_at_most(
         Err(ListError::TooLong { most, .. }) if most < MOST_RECORDS => return None,
         Ok((mut list, notes)) => {
             let is_turned = axes::turn_to_world(&mut list, &expectations.places);
-            let fingerprint = Fingerprint::of(&list.records);
             let mut graded = grade_list(submission, list, settings, expectations);
-            graded.fingerprint = fingerprint;
             if graded.grade.verdict == Verdict::Correct {
                 graded.grade.for_course.extend(own(&graded, settings));
             }

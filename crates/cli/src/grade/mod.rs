@@ -19,12 +19,12 @@ use class::Class;
 // What `check` has in common with `grade`, where there is `check`.
 #[cfg(unix)]
 pub use class::json;
+use classroom::intake::{Collected, Folders, collect};
+use classroom::page::Pages;
 pub use files::places_of_each;
 #[cfg(unix)]
 pub use files::{INDEX, made_by};
-use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
-use grading::page::Pages;
 use grading::places::Places;
 use grading::signature::Signatures;
 use grading::submission::Settings;

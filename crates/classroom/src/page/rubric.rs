@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::policy::{Policy, SectionPoints, points};
-use crate::verdict::{Grade, Verdict};
+use grading::policy::{Policy, SectionPoints, points};
+use grading::verdict::{Grade, Verdict};
 
 /// The rubric by `policy`, with the row of `grade` marked; or the points of each section, where
 /// sections have points and one is wrong.
