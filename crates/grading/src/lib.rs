@@ -43,6 +43,7 @@ mod own;
 pub mod picture;
 pub mod places;
 pub mod policy;
+pub mod recognized;
 mod repeats;
 mod self_hits;
 pub mod short;

@@ -15,6 +15,7 @@ use super::picture::judge_picture;
 use super::picture::reading::read_picture;
 use super::picture::view::{PIXELS, View};
 use super::policy::Policy;
+use super::recognized::RECOGNIZED;
 use super::text::{printable, rounded};
 use super::verdict::{Finding, Grade, Verdict, Weight};
 use crate::limits::submission::{FEW_STORED, FEWEST_DOTS, TOGETHER};
@@ -308,12 +309,16 @@ impl Because<'_> {
         let mut explained = explanation.iter().chain(&pair);
         let stores_direct = explained.any(|it| it.hypothesis.variation.stores_direct());
         let mut faults = findings.iter().filter(|finding| finding.is_fault());
+        let is_recognized = faults.clone().all(|finding| finding.check != RECOGNIZED);
         let is_plausible = faults.all(|finding| finding.weight != Weight::Grave) && !stores_direct;
         Graded::new(Grade {
             submission: submission.name.clone(),
             emitted: emitted.or(settings.emitted),
             stored,
-            score: settings.policy.score(verdict, misreading, is_plausible),
+            score: match is_recognized {
+                true => settings.policy.score(verdict, misreading, is_plausible),
+                false => settings.policy.unreadable,
+            },
             verdict,
             misreading,
             misreading_confidence: explanation.map(|explanation| explanation.confidence),
