@@ -3,8 +3,8 @@
 
 use std::sync::OnceLock;
 
-use grading::class::grade_one;
-use grading::intake::{Folders, collect};
+use classroom::class::grade_one;
+use classroom::intake::{Folders, collect};
 use grading::judge_list::Expectations;
 use grading::places::Places;
 use grading::signature::Signatures;

@@ -77,7 +77,7 @@ pub fn grade(report: &CheckReport, settings: &Settings, expectations: &Expectati
         for_course: Vec::new(),
     };
     let list = statistics.and_then(|graded| graded.list);
-    Graded { grade, list, fingerprint: None, try_again: false }
+    Graded { grade, list, try_again: false }
 }
 
 /// The findings of `grade` that come from the statistics of the list.

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use grading::intake::HandedIn;
-use grading::text::{last_part, verdict_in_words};
+use classroom::intake::HandedIn;
+use classroom::text::last_part;
+use grading::text::verdict_in_words;
 use grading::verdict::Grade;
 use serde::Deserialize;
 

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use grading::class::grade_one;
-use grading::intake::{Folders, HandedIn};
+use classroom::class::grade_one;
+use classroom::intake::{Folders, HandedIn};
 use grading::submission::{Settings, Submission, unreadable};
 use grading::verdict::Verdict;
 use photon_list::reader::load_at_most;
@@ -55,7 +55,7 @@ fn found<'a>(grade: &'a Value, check: &str) -> &'a str {
 
 /// What a grader who names `paths` gets to grade.
 fn collect(paths: &[PathBuf]) -> Vec<HandedIn> {
-    grading::intake::collect(paths, Folders::Clear).handed_in
+    classroom::intake::collect(paths, Folders::Clear).handed_in
 }
 
 #[test]

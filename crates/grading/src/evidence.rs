@@ -22,6 +22,10 @@ pub(crate) trait Evidence {
     fn of_facets(&self) -> Vec<f64>;
     /// The counts by cell.
     fn of_cells(&self) -> &[f64];
+    /// Counts in no cell, of photons or dots that lie where hardly any do.
+    fn strays(&self) -> f64;
+    /// How large each cell is.
+    fn sizes(&self) -> Vec<f64>;
     /// The facet of each cell.
     fn facets_of_cells(&self) -> &[usize];
     /// The name of a facet.

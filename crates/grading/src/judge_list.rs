@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::bounces::{BOUNCES_BY_PLACE, bounce_findings};
 use super::direct::{is_ruled_out, shows_direct};
 use super::evidence::Evidence as _;
-use super::facts::{enough, plain_findings, remarks};
+use super::facts::{ENOUGH_PHOTONS, enough, plain_findings, remarks};
 use super::few::StoredByPaths;
 use super::limits::MOSTLY;
 pub use super::limits::SIGNIFICANCE;
@@ -18,6 +18,7 @@ use super::number::other_number;
 use super::observation::Observation;
 use super::picture::expectations::PictureExpectations;
 use super::places::Places;
+use super::recognized::not_recognized;
 use super::signature::{Known, Signature, Signatures};
 use super::trial::best_trial;
 use super::verdict::Finding;
@@ -151,6 +152,12 @@ pub fn judge(
     let is_strange = is_strange || findings.iter().any(Finding::is_fault);
     findings.extend(of_bounces.into_iter().filter(|finding| is_other(&finding) || !is_strange));
     findings.extend(of_columns);
+    if findings.iter().any(|finding| finding.is_fault() && finding.check != ENOUGH_PHOTONS) {
+        // Photons that are stored again and again say no more than one.
+        let distinct = Observation { counts: observation.distinct.clone(), ..observation.clone() };
+        let recognized = not_recognized(&OfList { observation: &distinct, ..list });
+        findings.splice(..0, recognized);
+    }
     Judgment { findings, explanation, pair, reading, signature, emitted: trial.emitted }
 }
 

@@ -50,6 +50,15 @@ impl Evidence for OfList<'_> {
         &self.observation.counts.cells
     }
 
+    fn strays(&self) -> f64 {
+        let counts = &self.observation.counts;
+        counts.off_surface + counts.footprint + counts.corner
+    }
+
+    fn sizes(&self) -> Vec<f64> {
+        self.expectations.places.areas_of_cells()
+    }
+
     fn facets_of_cells(&self) -> &[usize] {
         &self.expectations.places.facet_of_cell
     }

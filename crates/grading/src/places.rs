@@ -163,6 +163,24 @@ impl Places {
         (0..self.cells).map(|cell| self.leeway_of_cell(cell)).collect()
     }
 
+    /// The area of each cell, without what is too close to other facets, or under a box.
+    pub fn areas_of_cells(&self) -> Vec<f64> {
+        const PROBES: usize = 64;
+        let mut areas = vec![0.0; self.cells];
+        let part = |along: usize| (along as f64 + 0.5) / PROBES as f64;
+        for FacetCells { corners: [a, b, c, d], .. } in self.facets.iter().cloned() {
+            let area = 0.5 * (c - a).cross(d - b).length() / (PROBES * PROBES) as f64;
+            for probe in 0..PROBES * PROBES {
+                let (u, v) = (part(probe % PROBES), part(probe / PROBES));
+                let place = self.place(a.lerp(b, u).lerp(d.lerp(c, u), v));
+                if let Place::Cell { cell, .. } = place {
+                    areas[cell] += area;
+                }
+            }
+        }
+        areas
+    }
+
     /// Where `position`, in world space, lies.
     pub fn place(&self, position: DVec3) -> Place {
         if !position.is_finite() {

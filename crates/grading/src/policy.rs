@@ -21,7 +21,7 @@ pub struct Policy {
     pub incorrect: f64,
     /// For one without dots.
     pub no_dots: f64,
-    /// For one that cannot be read.
+    /// For one that cannot be read, or has nothing of a photon map in it.
     pub unreadable: f64,
     /// For an incorrect one with this misreading, in place of the above.
     pub misreadings: BTreeMap<String, f64>,

@@ -15,8 +15,8 @@ use super::picture::judge_picture;
 use super::picture::reading::read_picture;
 use super::picture::view::{PIXELS, View};
 use super::policy::Policy;
+use super::recognized::RECOGNIZED;
 use super::text::{printable, rounded};
-use super::twins::Fingerprint;
 use super::verdict::{Finding, Grade, Verdict, Weight};
 use crate::limits::submission::{FEW_STORED, FEWEST_DOTS, TOGETHER};
 use photon_list::error::{ListError, Reason};
@@ -57,15 +57,13 @@ pub struct Graded {
     pub grade: Grade,
     /// The list, if it could be read, with what was concluded from it.
     pub list: Option<(PhotonList, Judgment)>,
-    /// What tells its photons from others'.
-    pub fingerprint: Option<Fingerprint>,
     /// Whether a file could not be read, which may be over soon.
     pub try_again: bool,
 }
 
 impl Graded {
     fn new(grade: Grade) -> Self {
-        Self { grade, list: None, fingerprint: None, try_again: false }
+        Self { grade, list: None, try_again: false }
     }
 }
 
@@ -92,9 +90,7 @@ pub fn grade_at_most(
         Err(ListError::TooLong { most, .. }) if most < MOST_RECORDS => return None,
         Ok((mut list, notes)) => {
             let is_turned = axes::turn_to_world(&mut list, &expectations.places);
-            let fingerprint = Fingerprint::of(&list.records);
             let mut graded = grade_list(submission, list, settings, expectations);
-            graded.fingerprint = fingerprint;
             if graded.grade.verdict == Verdict::Correct {
                 graded.grade.for_course.extend(own(&graded, settings));
             }
@@ -313,12 +309,16 @@ impl Because<'_> {
         let mut explained = explanation.iter().chain(&pair);
         let stores_direct = explained.any(|it| it.hypothesis.variation.stores_direct());
         let mut faults = findings.iter().filter(|finding| finding.is_fault());
+        let is_recognized = faults.clone().all(|finding| finding.check != RECOGNIZED);
         let is_plausible = faults.all(|finding| finding.weight != Weight::Grave) && !stores_direct;
         Graded::new(Grade {
             submission: submission.name.clone(),
             emitted: emitted.or(settings.emitted),
             stored,
-            score: settings.policy.score(verdict, misreading, is_plausible),
+            score: match is_recognized {
+                true => settings.policy.score(verdict, misreading, is_plausible),
+                false => settings.policy.unreadable,
+            },
             verdict,
             misreading,
             misreading_confidence: explanation.map(|explanation| explanation.confidence),

@@ -7,6 +7,7 @@ use glam::Vec3;
 use grading::judge_list::{Expectations, Judgment, judge};
 use grading::observation::observe;
 use grading::places::Places;
+use grading::recognized::RECOGNIZED;
 use grading::signature::Signatures;
 use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
@@ -216,6 +217,8 @@ fn faults_that_are_not_in_the_table_get_no_name() {
             let name = name(judgment);
             let is_right = |name| OF_TWO.contains(&(what, name));
             assert!(name.is_none_or(is_right), "{what}: {name:?}");
+            let is_made_up = judgment.findings.iter().any(|it| it.check == RECOGNIZED);
+            assert!(!is_made_up, "{what} is taken for made up");
         }
         let [alone, with_number, with_all] = judgments.each_ref().map(is_incorrect);
         assert!(with_all, "{what} is not seen");

@@ -11,15 +11,15 @@ use super::files::{INDEX, made_by};
 use crate::error::{CliError, print_whole};
 use crate::gradebook;
 use crate::output::write;
-use grading::class::grade_one;
-use grading::gradescope;
-use grading::intake::HandedIn;
-use grading::intake::contents::{contents, is_named_twice};
+use classroom::class::grade_one;
+use classroom::gradescope;
+use classroom::intake::HandedIn;
+use classroom::intake::contents::{contents, is_named_twice};
+use classroom::page::{Pages, index::Index};
+use classroom::text;
+use classroom::twins::{Fingerprint, twins};
 use grading::judge_list::Expectations;
-use grading::page::{Pages, index::Index};
-use grading::submission::{Graded, MOST_RECORDS, Settings, grade_at_most, remark};
-use grading::text;
-use grading::twins::{Fingerprint, twins};
+use grading::submission::{MOST_RECORDS, Settings, grade_at_most, remark};
 use grading::verdict::{Grade, SAME_FILES};
 use photon_list::reader::MOST_BYTES;
 
@@ -100,19 +100,17 @@ impl Class<'_> {
 
     /// The grade of submission `at`; none if its list has more than `most` records.
     fn grade_one(&self, at: usize, handed_in: &HandedIn, most: usize) -> Option<Kept> {
-        let Graded { grade, fingerprint, try_again, list } =
-            grade_one(handed_in, self.settings, |submission| {
-                grade_at_most(submission, self.settings, self.expectations, most)
-            })?;
-        let problem =
-            try_again.then(|| format!("{}: could not be read: try again", grade.submission));
-        let graded = Graded { grade, list, fingerprint, try_again };
-        let page = match self.format {
+        let graded = grade_one(handed_in, self.settings, |submission| {
+            grade_at_most(submission, self.settings, self.expectations, most)
+        })?;
+        let name = &graded.grade.submission;
+        let problem = graded.try_again.then(|| format!("{name}: could not be read: try again"));
+        let fingerprint = graded.list.as_ref().and_then(|(list, _)| Fingerprint::of(&list.records));
+        let output = match self.format {
             GradeFormat::Html => self.pages.page(&handed_in.submission, &graded),
             _ => String::new(),
         };
-        let Graded { grade, fingerprint, .. } = graded;
-        let mut kept = Kept { grade, output: page, fingerprint, problem };
+        let mut kept = Kept { grade: graded.grade, output, fingerprint, problem };
         if self.format == GradeFormat::Html
             && let Some(folder) = &self.folder
         {

@@ -19,12 +19,12 @@ use class::Class;
 // What `check` has in common with `grade`, where there is `check`.
 #[cfg(unix)]
 pub use class::json;
+use classroom::intake::{Collected, Folders, collect};
+use classroom::page::Pages;
 pub use files::places_of_each;
 #[cfg(unix)]
 pub use files::{INDEX, made_by};
-use grading::intake::{Collected, Folders, collect};
 use grading::judge_list::Expectations;
-use grading::page::Pages;
 use grading::places::Places;
 use grading::signature::Signatures;
 use grading::submission::Settings;
@@ -53,7 +53,8 @@ Policy: a JSON object of scores. Those left out are
   { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \
 \"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
 'undecided' is for too few photons: look at them yourself. 'plausible' is for incorrect photons \
-that are finite, on surfaces and indirect. 'misreadings' gives named misreadings a score of \
+that are finite, on surfaces and indirect. 'unreadable' is also for what has nothing of a photon \
+map in it. 'misreadings' gives named misreadings a score of \
 their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each section \
 that 'check' finds right, by its title.
 

@@ -5,7 +5,7 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use crate::error::CliError;
-use grading::intake::HandedIn;
+use classroom::intake::HandedIn;
 use grading::submission::Submission;
 use photon_list::reader::MOST_BYTES;
 

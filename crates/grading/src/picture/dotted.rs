@@ -18,6 +18,8 @@ pub(super) struct OfPicture<'a> {
     pub(super) view: &'a View,
     pub(super) expectations: &'a PictureExpectations,
     pub(super) coverage: Vec<f64>,
+    /// How many red pixels show no place of a cell.
+    pub(super) elsewhere: f64,
 }
 
 impl Evidence for OfPicture<'_> {
@@ -46,6 +48,17 @@ impl Evidence for OfPicture<'_> {
 
     fn of_cells(&self) -> &[f64] {
         self.counts
+    }
+
+    fn strays(&self) -> f64 {
+        self.elsewhere
+    }
+
+    fn sizes(&self) -> Vec<f64> {
+        let mut pixels = vec![0.0; self.counts.len()];
+        let patches = self.view.patches.iter();
+        patches.for_each(|patch| pixels[patch.cell] += f64::from(patch.pixels));
+        pixels
     }
 
     fn facets_of_cells(&self) -> &[usize] {
@@ -99,7 +112,14 @@ impl<'a> OfPicture<'a> {
         view: &'a View,
         expectations: &'a PictureExpectations,
     ) -> Self {
-        Self { counts, emitted, view, expectations, coverage: vec![1.0; view.facets.len()] }
+        Self {
+            counts,
+            emitted,
+            view,
+            expectations,
+            coverage: vec![1.0; view.facets.len()],
+            elsewhere: 0.0,
+        }
     }
 
     fn by_facet(&self) -> Groups {

@@ -9,6 +9,7 @@ use super::words;
 use crate::evidence::Evidence;
 use crate::limits::{ALL_RED, FEW_EMITTED, FEWEST_RED, RARE, SATURATED, SIGNIFICANCE};
 use crate::naming::{Explanation, candidates, most_likely};
+use crate::recognized::not_recognized;
 use crate::trial::best_trial;
 use crate::verdict::Finding;
 
@@ -52,8 +53,9 @@ pub fn judge_dots(
     }
     let found = counts.iter().sum::<f64>();
     let all: f64 = view.patches.iter().map(|patch| f64::from(patch.pixels)).sum();
-    let picture = OfPicture::new(&counts, emitted, view, expectations);
+    let mut picture = OfPicture::new(&counts, emitted, view, expectations);
     let elsewhere = red.iter().filter(|is_red| **is_red).count() as f64 - found;
+    picture.elsewhere = elsewhere;
     let early = |has_dots, finding: Finding, explanation| PictureJudgment {
         has_dots,
         findings: vec![finding],
@@ -102,8 +104,9 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
         None => OfPicture::WORDS.unexplained.into(),
     };
     let reading = &picture.table().fair[trial.reading].hypothesis;
-    let mut findings: Vec<Finding> =
-        trial.findings(&reading.title, explanation.as_ref(), &unexplained).collect();
+    let recognized = is_wrong.then(|| not_recognized(picture)).flatten();
+    let of_trial = trial.findings(&reading.title, explanation.as_ref(), &unexplained);
+    let mut findings: Vec<Finding> = recognized.into_iter().chain(of_trial).collect();
     if picture.emitted.is_none() {
         findings.push(words::enough(picture.counts.iter().sum(), trial.emitted, !is_wrong));
     }

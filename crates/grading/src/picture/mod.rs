@@ -7,6 +7,7 @@ mod dotted;
 pub mod expectations;
 pub mod expected;
 pub mod judge;
+pub mod kinds;
 mod off_surface;
 pub mod reading;
 pub mod signature;

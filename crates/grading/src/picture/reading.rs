@@ -7,7 +7,7 @@ use std::path::Path;
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, Limits, RgbImage};
 
-use crate::intake::kinds::{Kind, PNG, START, kind, png_size};
+use super::kinds::{Kind, PNG, START, kind, png_size};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 /// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB.

@@ -6,8 +6,8 @@ use plotters::prelude::*;
 
 use super::pictures::strength;
 use super::profile::Axis;
-use crate::places::FacetCells;
-use crate::text::rounded;
+use grading::places::FacetCells;
+use grading::text::rounded;
 
 const SIZE: (u32, u32) = (320, 150);
 /// Fewer bins than this have a tick each.

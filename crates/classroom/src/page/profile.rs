@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::observation::CountsByPlace;
-use crate::places::{FacetCells, Place, Places};
+use grading::observation::CountsByPlace;
+use grading::places::{FacetCells, Place, Places};
 use photon_mapping::photon_list::PhotonRecord;
 use variants::variation::{Simulation, Variation};
 

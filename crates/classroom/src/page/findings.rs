@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use maud::{Markup, html};
 
 use crate::text::chance;
-use crate::verdict::{Finding, Grade, Weight};
+use grading::verdict::{Finding, Grade, Weight};
 
 /// What the C++ of each section does, where it was run.
 pub fn sections(grade: &Grade) -> Markup {

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::policy::{Policy, points};
 use super::text;
-use super::verdict::{Finding, Grade};
+use grading::policy::{Policy, points};
+use grading::verdict::{Finding, Grade};
 
 /// The whole file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

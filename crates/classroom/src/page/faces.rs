@@ -5,10 +5,10 @@ use maud::{Markup, PreEscaped, html};
 use super::Pages;
 use super::plot::{self, Histogram};
 use super::profile::{Axis, LAST_BOUNCE, Profile};
-use crate::judge_list::Judgment;
-use crate::places::MARGIN;
-use crate::signature::classes;
-use crate::text::rounded;
+use grading::judge_list::Judgment;
+use grading::places::MARGIN;
+use grading::signature::classes;
+use grading::text::rounded;
 use photon_list::reader::PhotonList;
 use variants::variation::{FACETS, Variation};
 

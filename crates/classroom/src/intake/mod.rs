@@ -3,19 +3,18 @@
 pub mod class;
 pub mod contents;
 mod folder;
-pub mod kinds;
 
 use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::picture::reading::MOST_BYTES;
-use super::submission::Submission;
-use super::text::printable;
 use contents::{Contents, contents, is_named_twice};
 use folder::Found;
-use kinds::Kind;
+use grading::picture::kinds::{self, Kind};
+use grading::picture::reading::MOST_BYTES;
+use grading::submission::Submission;
+use grading::text::printable;
 
 /// A submission, and what there is to say about its files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::folder::{Found, has_extension, within};
-use super::kinds::{self, Kind, kind};
+use grading::picture::kinds::{self, Kind, kind};
 use photon_list::reader::{Look, look};
 
 /// What students call the folders in their own.

@@ -2,8 +2,9 @@
 
 use maud::{Markup, html};
 
-use crate::policy::{Policy, SectionPoints, points};
-use crate::verdict::{Grade, Verdict};
+use grading::policy::{Policy, SectionPoints, points};
+use grading::recognized::RECOGNIZED;
+use grading::verdict::{Grade, Verdict};
 
 /// The rubric by `policy`, with the row of `grade` marked; or the points of each section, where
 /// sections have points and one is wrong.
@@ -29,9 +30,14 @@ pub fn rubric(grade: &Grade, policy: &Policy) -> Markup {
         own.map(|(id, score)| (score, format!("with the misreading {id}"), Verdict::Incorrect)),
     );
     rows.push(row(*no_dots, "no dots", Verdict::NoDots));
-    rows.push(row(*unreadable, "nothing that can be read", Verdict::Unreadable));
+    rows.push(row(*unreadable, "nothing that can be read, or no photon map", Verdict::Unreadable));
     rows.push(row(*undecided, "too few photons to tell: needs a look", Verdict::Undecided));
-    let is_row = |row: &(f64, String, Verdict)| row.2 == grade.verdict && row.0 == grade.score;
+    let mut faults = grade.findings.iter().filter(|finding| finding.is_fault());
+    let verdict = match faults.any(|fault| fault.check == RECOGNIZED) {
+        true => Verdict::Unreadable,
+        false => grade.verdict,
+    };
+    let is_row = |row: &(f64, String, Verdict)| row.2 == verdict && row.0 == grade.score;
     // The last of those that fit: a score of a misreading's own stands after the others.
     let chosen = rows.iter().rposition(is_row);
     html! {

@@ -3,9 +3,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::intake::HandedIn;
-use super::submission::{Graded, Settings, Submission, remark, unreadable};
-use super::text::printable;
-use super::verdict::SAME_FILES;
+use grading::submission::{Graded, Settings, Submission, remark, unreadable};
+use grading::text::printable;
+use grading::verdict::SAME_FILES;
 
 /// The grade of `handed_in`, by `grade` unless its files say before that there is nothing to grade.
 /// A fault of the grader is no fault of the student, but the grade must say what happened. None if

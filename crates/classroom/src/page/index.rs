@@ -9,8 +9,9 @@ use maud::{Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::{STYLE, class_of, document};
-use crate::text::{last_part, verdict_in_words};
-use crate::verdict::Grade;
+use crate::text::last_part;
+use grading::text::verdict_in_words;
+use grading::verdict::Grade;
 
 /// Sorts the table by the column whose head is clicked, and hides rows that a filter leaves out.
 const SCRIPT: &str = include_str!("index.js");

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 use super::contents::same_contents;
-use super::kinds::{self, Kind, kind};
-use crate::text::printable;
+use grading::picture::kinds::{self, Kind, kind};
+use grading::text::printable;
 use photon_list::reader::{LONGEST_START, Look, look};
 
 /// So many files and levels of a folder are searched: the course's framework has 4,433 and 9.

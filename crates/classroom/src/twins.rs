@@ -5,10 +5,24 @@ use std::collections::BTreeSet;
 use glam::Vec3;
 use photon_mapping::photon_list::PhotonRecord;
 
-use crate::limits::twins::{
-    FEWEST, FEWEST_SHARED, KEPT, LARGE_CELL, MOST_FOR_PART, MOST_IN_LARGE_CELLS, PART, SAME,
-    SMALL_CELL,
-};
+/// Of the cells that a list's photons lie in, so many with the smallest hashes stand for all.
+const KEPT: usize = 1024;
+/// Fewer different cells say nothing, nor do fewer that two lists share.
+const FEWEST: usize = 20;
+const FEWEST_SHARED: usize = 10;
+/// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
+/// long lists are all alike.
+const LARGE_CELL: f32 = 1e-2;
+const SMALL_CELL: f32 = 1e-3;
+/// Longer lists are compared in small cells alone.
+const MOST_IN_LARGE_CELLS: usize = 60_000;
+/// Of all cells that one of two lists has, this part is in both only if they have the same
+/// photons. Two runs of MOST_IN_LARGE_CELLS records share 0.32 of the large cells.
+const SAME: f64 = 0.45;
+/// Of the small cells of the shorter list, the other has this part only if it has part of its
+/// photons. Two runs of MOST_FOR_PART records share 0.03.
+const PART: f64 = 0.2;
+const MOST_FOR_PART: usize = 300_000;
 
 /// What tells the photons of a list from others'.
 #[derive(Clone, Debug, PartialEq, Eq)]

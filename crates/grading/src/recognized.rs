@@ -1,0 +1,74 @@
+//! Is there anything of the photon map in what a submission shows?
+//!
+//! A misreading, also one that is in no table, moves some photons of the map and leaves others.
+//! What was made up has nothing to do with the light: it lies elsewhere, or evenly.
+
+use super::evidence::Evidence;
+use super::expected::bisect;
+use super::limits::expected::SIZES;
+use super::limits::{EVEN, FEWEST_RED, MADE_UP, MORE_EVEN};
+use super::verdict::{Finding, Weight};
+
+/// The check of what a grade is given for at all.
+pub const RECOGNIZED: &str = "photon map";
+
+/// The finding that nothing of the photon map is in `evidence`, if so.
+pub(crate) fn not_recognized<E: Evidence>(evidence: &E) -> Option<Finding> {
+    let [apart, uneven] = [to_nearest(evidence), to_even(evidence)];
+    let is_even = uneven < EVEN && uneven + MORE_EVEN < apart;
+    let unit = E::WORDS.unit;
+    let found = if is_even {
+        format!("{unit} that lie evenly all over the surfaces, as no light leaves them")
+    } else {
+        format!("{:.0} % of the {unit} lie where nothing that is known leaves them", 100.0 * apart)
+    };
+    let finding = Finding::new(
+        RECOGNIZED,
+        "a photon map of this scene, be it with mistakes",
+        found,
+        "Nothing of the photon map is recognizable: a person must look. Check which file was \
+         handed in, and which program made it.",
+    );
+    (is_even || apart > MADE_UP).then(|| finding.weighing(Weight::Grave))
+}
+
+/// The part of the counts that would have to move until they are as the nearest hypothesis leaves
+/// them, fair or not: all that are in no cell, and all of so few that they show no pattern.
+fn to_nearest<E: Evidence>(evidence: &E) -> f64 {
+    let counts = evidence.of_cells();
+    let (found, strays) = (counts.iter().sum::<f64>(), evidence.strays());
+    if found < FEWEST_RED {
+        return 1.0;
+    }
+    let table = evidence.table();
+    let to_each = table.fair.iter().chain(table.faults()).map(|known| {
+        let means = |emitted| evidence.means(known, emitted);
+        let emitted = bisect(SIZES, |emitted| means(emitted).iter().sum::<f64>() < found);
+        to_move(counts, &means(emitted))
+    });
+    (to_each.fold(found, f64::min) + strays) / (found + strays)
+}
+
+/// The same until they are even all over each facet.
+fn to_even<E: Evidence>(evidence: &E) -> f64 {
+    let (counts, sizes) = (evidence.of_cells(), evidence.sizes());
+    let facets = evidence.facets_of_cells();
+    let on = |values: &[f64], facet: usize| {
+        let all = values.iter().zip(facets);
+        all.filter(|(_, other)| **other == facet).map(|(value, _)| value).sum::<f64>()
+    };
+    let even = |(size, facet): (&f64, &usize)| size * on(counts, *facet) / on(&sizes, *facet);
+    let means: Vec<f64> = sizes.iter().zip(facets).map(even).collect();
+    to_move(counts, &means).max(0.0) / counts.iter().sum::<f64>().max(1.0)
+}
+
+/// How many of `counts` would have to move until they are `means`, without what chance
+/// moves.
+fn to_move(counts: &[f64], means: &[f64]) -> f64 {
+    let apart = counts.iter().zip(means).map(|(count, mean)| {
+        // The mean deviation of a number of Poisson's law, nearly.
+        let by_chance = (2.0 * mean).min((2.0 * mean / std::f64::consts::PI).sqrt());
+        (count - mean).abs() - by_chance
+    });
+    0.5 * apart.sum::<f64>()
+}
