@@ -27,7 +27,7 @@ const BY_ROUNDING: f32 = 5e-4;
 /// How submissions are checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckSettings {
-    /// How long the compiler may take for a file, and how long the submission may run.
+    /// How much processor time the compiler may use for a file, and the whole run.
     pub time: Duration,
     /// How many photons are emitted in the whole run.
     pub photons: u64,

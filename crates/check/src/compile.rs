@@ -8,14 +8,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 pub use crate::diagnostics::BuildError;
-use crate::diagnostics::{missing_header, missing_in_list, parse_error};
+use crate::diagnostics::{missing_header, missing_in_list, parse_error, paths_of_list};
 use crate::error::CheckError;
 use crate::find::{
     CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, beside, read_source,
 };
+use crate::foreign::{file_directive, take_headers};
 use crate::headers::Headers;
 use crate::kit::{Kit, write};
-use crate::sandbox::{Exit, Limits, Program, RunOutcome, search_path};
+use crate::sandbox::{BUSY, Exit, Limits, Program, RunOutcome, search_path};
 
 /// The framework's standard first; the other for those whose compiler let them use more. This
 /// name of C++20 is the one that older compilers know, too.
@@ -170,19 +171,38 @@ impl<'kit> Workshop<'kit> {
         let number = source
             .bytes()
             .fold(7_u64, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(byte)));
-        let object = self.path().join(format!("{number:x}.o"));
-        let list = object.with_extension("d");
+        let assembly = self.path().join(format!("{number:x}.s"));
+        let list = assembly.with_extension("d");
         let mut unfit = None;
+        let refused = |message| {
+            let file = self.original_name(attempt.source);
+            let error = BuildError { file, ..BuildError::plain(message) };
+            Ok(Err(CompileFailure { error, is_final: true }))
+        };
         loop {
             let mut command = self.command(attempt);
             for argument in ["-MD".as_ref(), "-MF".as_ref(), list.as_os_str(), "-o".as_ref()] {
                 command.push(argument.to_owned());
             }
-            command.extend([object.as_os_str().to_owned(), "-c".into(), attempt.source.into()]);
-            let outcome = self.run(command)?;
+            let source = attempt.source.into();
+            command.extend([assembly.as_os_str().to_owned(), "-S".into(), "-H".into(), source]);
+            let mut outcome = self.run(command)?;
+            let mut read = take_headers(&mut outcome.printed);
+            let dependencies = fs::read_to_string(&list).unwrap_or_default();
+            read.extend(paths_of_list(&dependencies));
+            if let Some(path) = self.foreign(&read) {
+                return refused(format!("includes {path}, which was not handed in"));
+            }
             if outcome.ending == Exit::Code(0) {
-                let sources = self.sources_of(&fs::read_to_string(&list).unwrap_or_default());
-                return Ok(Ok(Object { path: object, sources }));
+                let text = fs::read(&assembly).unwrap_or_default();
+                if let Some(directive) = file_directive(&String::from_utf8_lossy(&text)) {
+                    return refused(format!("its assembler code may read files: {directive}"));
+                }
+                let sources = self.sources_of(&dependencies);
+                return Ok(match self.assemble(&assembly)? {
+                    Ok(path) => Ok(Object { path, sources }),
+                    Err(message) => return refused(message),
+                });
             }
             let error = self.explain(&outcome, attempt.is_harness)?;
             let is_final = matches!(outcome.ending, Exit::TimeOut | Exit::Signal(_));
@@ -195,6 +215,20 @@ impl<'kit> Workshop<'kit> {
                 unfit.get_or_insert(error);
             }
         }
+    }
+
+    /// The object file of `assembly`, or what is wrong with it.
+    fn assemble(&self, assembly: &Path) -> Result<Result<PathBuf, String>, CheckError> {
+        let object = assembly.with_extension("o");
+        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into(), "-c".into()];
+        command.extend([assembly.into(), "-o".into(), object.clone().into()]);
+        let outcome = self.run(command)?;
+        if outcome.ending == Exit::Code(0) {
+            return Ok(Ok(object));
+        }
+        let errors = outcome.printed.lines().filter_map(|line| line.split_once("rror: "));
+        let error = errors.map(|(_, error)| error.trim()).next().unwrap_or("unknown");
+        Ok(Err(format!("its assembler code is wrong: {error}")))
     }
 
     /// Writes the headers that `attempt` lacks, or empties one that does not fit; whether there is
@@ -229,6 +263,10 @@ impl<'kit> Workshop<'kit> {
         if attempt.is_harness {
             command.push("-fno-access-control".into());
         }
+        if self.kit.is_clang {
+            // Assembler code is to be looked at as it was written.
+            command.push("-fno-integrated-as".into());
+        }
         let mut folder = |option: &str, path: &Path| {
             command.push(option.into());
             command.push(path.into());
@@ -252,8 +290,14 @@ impl<'kit> Workshop<'kit> {
     }
 
     pub(crate) fn run(&self, command: Vec<OsString>) -> Result<RunOutcome, CheckError> {
-        let limits = Limits { time: self.time, memory: MEMORY, file_blocks: 1 << 19 };
-        self.program(command).run(limits, |_| Some(self.time))
+        let (processor, time) = (self.time, BUSY * self.time);
+        let limits = Limits { time, processor, memory: MEMORY, file_blocks: 1 << 19 };
+        let mut outcome = self.program(command).run(limits, |_| Some(time))?;
+        // The compiler says so of the process that it started.
+        if outcome.printed.to_lowercase().contains("time limit exceeded") {
+            outcome.ending = Exit::TimeOut;
+        }
+        Ok(outcome)
     }
 
     /// What `command` writes to its standard output.

@@ -70,7 +70,7 @@ impl Workshop<'_> {
     ) -> Result<BuildError, CheckError> {
         if outcome.ending == Exit::TimeOut {
             let seconds = self.time.as_secs();
-            let message = format!("the compiler did not end within {seconds} s");
+            let message = format!("the compiler needs more than {seconds} s of processor time");
             return Ok(BuildError::plain(message));
         }
         let Some(error) = outcome.printed.lines().find_map(parse_error) else {
@@ -115,7 +115,7 @@ impl Workshop<'_> {
     }
 
     /// The student's name of the file that the compiler knows as `path`.
-    fn original_name(&self, path: &Path) -> Option<String> {
+    pub(crate) fn original_name(&self, path: &Path) -> Option<String> {
         let of_copy = self
             .originals
             .iter()

@@ -1,14 +1,22 @@
 //! The stand-in for the framework and the harness, written to a folder, and the compiler for them.
 
 use std::ffi::OsString;
-use std::fs;
+use std::fs::{self, File};
+use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use tempfile::TempDir;
 
 use crate::error::CheckError;
+use crate::foreign::system_folders;
+
+/// How the names of our temporary folders begin.
+const PREFIX: &str = "photon-mapping-check-";
+/// A younger folder may not be locked yet.
+const YOUNG: Duration = Duration::from_secs(60);
 
 macro_rules! assets {
     ($($path:literal),* $(,)?) => {
@@ -51,10 +59,16 @@ const ASSETS: &[(&str, &str)] = assets![
 #[derive(Debug)]
 pub struct Kit {
     folder: TempDir,
+    /// The folder, locked as long as this process lives.
+    _lock: File,
     /// The compiler.
     pub compiler: PathBuf,
     /// Where glm is, if not where the compiler looks anyway.
     pub glm: Option<PathBuf>,
+    /// Where the compiler looks for headers.
+    pub(crate) system: Vec<PathBuf>,
+    /// Whether the compiler is clang, which assembles by itself.
+    pub(crate) is_clang: bool,
     /// The harness, compiled for submissions without headers of their own.
     harness: Mutex<Option<PathBuf>>,
 }
@@ -65,16 +79,23 @@ impl Kit {
     /// # Errors
     /// When there is none, or the kit cannot be written.
     pub fn new(glm: Option<&Path>) -> Result<Self, CheckError> {
-        let compiler = find_compiler().ok_or(CheckError::NoCompiler)?;
+        let (compiler, version) = find_compiler().ok_or(CheckError::NoCompiler)?;
+        let parent = std::env::temp_dir();
+        remove_abandoned(&parent);
         let folder = tempfile::Builder::new()
-            .prefix("photon-mapping-check-")
-            .tempdir()
+            .prefix(PREFIX)
+            .tempdir_in(parent)
             .map_err(CheckError::io("a folder for temporary files"))?;
+        let lock = File::open(folder.path()).and_then(|lock| Ok((lock.lock()?, lock)));
+        let (_, lock) = lock.map_err(CheckError::io("a folder for temporary files"))?;
         for (path, content) in ASSETS {
             write(&folder.path().join(path), content.as_bytes())?;
         }
         let glm = glm.map(|glm| fs::canonicalize(glm).unwrap_or_else(|_| glm.to_owned()));
-        Ok(Self { folder, compiler, glm, harness: Mutex::new(None) })
+        let system = system_folders(&compiler);
+        let is_clang = version.contains("clang");
+        let harness = Mutex::new(None);
+        Ok(Self { folder, _lock: lock, compiler, glm, system, is_clang, harness })
     }
 
     /// The folder with the kit.
@@ -115,6 +136,23 @@ impl Kit {
     }
 }
 
+/// Removes the folders in `parent` that were left by processes of this user that were killed: nobody
+/// locks them.
+fn remove_abandoned(parent: &Path) {
+    let user = rustix::process::geteuid().as_raw();
+    for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
+        let is_ours = entry.file_name().to_string_lossy().starts_with(PREFIX)
+            && fs::symlink_metadata(entry.path()).is_ok_and(|about| {
+                let age = about.modified().ok().and_then(|modified| modified.elapsed().ok());
+                about.is_dir() && about.uid() == user && age.is_some_and(|age| age > YOUNG)
+            });
+        if is_ours && File::open(entry.path()).is_ok_and(|folder| folder.try_lock().is_ok()) {
+            // What cannot be removed now is tried again by the next run.
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
 /// Writes a file, with the folders above it.
 pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), CheckError> {
     let shown = path.display().to_string();
@@ -124,17 +162,49 @@ pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), CheckError> {
     fs::write(path, content).map_err(CheckError::io(shown))
 }
 
-fn find_compiler() -> Option<PathBuf> {
+/// The compiler, and what it says of its version.
+fn find_compiler() -> Option<(PathBuf, String)> {
     let of_user = std::env::var_os("CXX").filter(|name| !name.is_empty());
     let usual = ["c++", "g++", "clang++"].map(OsString::from);
     of_user.into_iter().chain(usual).find_map(|name| {
-        let works = Command::new(&name)
-            .arg("--version")
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .status()
-            .is_ok_and(|status| status.success());
-        works.then(|| PathBuf::from(name))
+        let output = Command::new(&name).arg("--version").stdin(Stdio::null()).output().ok()?;
+        let version = String::from_utf8_lossy(&output.stdout).into_owned();
+        output.status.success().then(|| (PathBuf::from(name), version))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_folders_that_a_killed_process_left_are_removed() {
+        let parent = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| parent.path().join(name);
+        let outside = tempfile::tempdir().expect("a folder");
+        for name in [&format!("{PREFIX}old"), &format!("{PREFIX}locked"), "other"] {
+            write(&at(name).join("submission-1/a.o"), b"").expect("can be written");
+        }
+        std::os::unix::fs::symlink(outside.path(), at("photon-mapping-check-link"))
+            .expect("a link");
+        let now = std::time::SystemTime::now();
+        for entry in fs::read_dir(parent.path()).expect("a folder").flatten() {
+            let folder = File::open(entry.path()).expect("a folder");
+            folder.set_modified(now - 2 * YOUNG).expect("can be set");
+        }
+        write(&at("photon-mapping-check-young").join("plan.txt"), b"").expect("can be written");
+        let lock = File::open(at("photon-mapping-check-locked")).expect("a folder");
+        lock.lock().expect("can be locked");
+        remove_abandoned(parent.path());
+        let left = fs::read_dir(parent.path()).expect("a folder").flatten();
+        let mut left: Vec<_> = left.map(|entry| entry.file_name()).collect();
+        left.sort();
+        let names = ["check-link", "check-locked", "check-young"];
+        let names = names.map(|name| format!("photon-mapping-{name}"));
+        assert_eq!(left[1..], names.map(OsString::from));
+        assert!(left[0] == "other" && outside.path().is_dir());
+        drop(lock);
+        remove_abandoned(parent.path());
+        assert!(!at("photon-mapping-check-locked").exists());
+    }
 }

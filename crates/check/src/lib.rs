@@ -13,6 +13,7 @@ mod diagnostics;
 pub mod error;
 pub mod events;
 pub mod find;
+mod foreign;
 pub mod grade;
 mod headers;
 pub mod kit;

@@ -12,12 +12,10 @@ use crate::events::Log;
 use crate::kit::write;
 use crate::messages::Reader;
 use crate::plan::{self, PlanStep};
-use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome};
+use crate::sandbox::{BUSY, Exit, Limits, MOST_BYTES, Program, RunOutcome};
 
 /// The processor time of a step with a small scene. It needs a thousandth of it.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// So much longer may it take on the clock, on a busy machine.
-const BUSY: u32 = 5;
 /// The signal that ends a step whose processor time is used up.
 const SIGPROF: i32 = 27;
 /// After so many steps that died, the others are left out, except the whole run.
@@ -142,8 +140,7 @@ impl Observed {
     }
 }
 
-/// Runs the program `harness` in `folder`. The whole run may take `time`, of the processor and on
-/// the clock.
+/// Runs the program `harness` in `folder`. The whole run may take `time` of the processor.
 ///
 /// # Errors
 /// When the program cannot be started or the plan cannot be written.
@@ -164,11 +161,9 @@ pub fn run(
         observed.log.current = None;
         observed.log.stack_overflowed = false;
         let has_waited = observed.deaths.iter().flatten().any(Death::is_time_out);
-        let mut times = Times::new(time);
-        if has_waited {
-            // Whoever has waited for an endless loop already waits no longer for the whole.
-            times.whole = times.small;
-        }
+        let small = PATIENCE.min(time);
+        // Whoever has waited for an endless loop already waits no longer for the whole.
+        let times = Times { small, whole: if has_waited { small } else { time } };
         let outcome = run_from(harness, folder, &plan_path, first, times, &mut observed.log)?;
         observed.printed_bytes += outcome.printed_bytes;
         if observed.printed.is_empty() {
@@ -216,28 +211,16 @@ pub fn run(
     Ok(observed)
 }
 
-/// How long a step may take.
-#[derive(Clone, Copy)]
-struct Time {
-    of_processor: Duration,
-    on_clock: Duration,
-}
-
+/// The processor time that steps may use.
 #[derive(Clone, Copy)]
 struct Times {
-    small: Time,
-    whole: Time,
+    small: Duration,
+    whole: Duration,
 }
 
 impl Times {
-    fn new(time: Duration) -> Self {
-        let small =
-            Time { of_processor: PATIENCE.min(time), on_clock: (BUSY * PATIENCE).min(time) };
-        Self { small, whole: Time { of_processor: time, on_clock: time } }
-    }
-
     /// Of the step that runs.
-    fn of(self, log: &Log) -> Time {
+    fn of(self, log: &Log) -> Duration {
         let is_whole = log.current == Some(plan::steps().len() - 1);
         if is_whole { self.whole } else { self.small }
     }
@@ -251,7 +234,7 @@ fn run_from(
     times: Times,
     log: &mut Log,
 ) -> Result<RunOutcome, CheckError> {
-    let seconds = |time: Time| OsString::from(time.of_processor.as_secs().max(1).to_string());
+    let seconds = |time: Duration| OsString::from(time.as_secs().max(1).to_string());
     let program = Program {
         command: vec![
             harness.into(),
@@ -264,8 +247,9 @@ fn run_from(
         environment: Vec::new(),
         writes: false,
     };
-    let time = times.small.on_clock + times.whole.on_clock;
-    let limits = Limits { time, memory: MEMORY, file_blocks: 0 };
+    let time = BUSY * (times.small + times.whole);
+    // The harness itself counts the processor time of each step.
+    let limits = Limits { time, processor: time, memory: MEMORY, file_blocks: 0 };
     let mut reader = Reader::default();
     // One step begins after another; each has its own time.
     let mut step_started = Instant::now();
@@ -278,11 +262,12 @@ fn run_from(
         if log.current != last_step {
             (last_step, step_started) = (log.current, Instant::now());
         }
-        Some(times.of(log).on_clock.saturating_sub(step_started.elapsed()))
+        Some((BUSY * times.of(log)).saturating_sub(step_started.elapsed()))
     })
 }
 
-fn death_of(outcome: &RunOutcome, log: &Log, time: Time) -> Death {
+/// How the step died that had the processor for `time`.
+fn death_of(outcome: &RunOutcome, log: &Log, time: Duration) -> Death {
     if log.is_broken {
         return Death::Forged;
     }
@@ -290,8 +275,8 @@ fn death_of(outcome: &RunOutcome, log: &Log, time: Time) -> Death {
         return Death::StackOverflow;
     }
     match outcome.ending {
-        Exit::TimeOut => Death::TimeOut { seconds: time.on_clock.as_secs() },
-        Exit::Signal(SIGPROF) => Death::TimeOut { seconds: time.of_processor.as_secs() },
+        Exit::TimeOut => Death::TimeOut { seconds: (BUSY * time).as_secs() },
+        Exit::Signal(SIGPROF) => Death::TimeOut { seconds: time.as_secs() },
         Exit::TooMuchOutput => Death::TooMuchOutput,
         Exit::Code(code) => Death::Exit { code },
         Exit::Signal(signal) => Death::Signal { signal },

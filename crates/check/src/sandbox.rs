@@ -21,15 +21,21 @@ use serde::Serialize;
 use crate::error::CheckError;
 
 /// So much of what a program prints is kept.
-const MOST_PRINTED: usize = 64 << 10;
+const MOST_PRINTED: usize = 1 << 20;
 /// A program that prints more than this is ended.
 pub(crate) const MOST_BYTES: u64 = 32 << 20;
+
+/// So many times its processor time may a program take on the clock: a busy machine must not make
+/// it fail.
+pub(crate) const BUSY: u32 = 5;
 
 /// The limits of one program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// How long it may run.
+    /// How long it may run, on the clock.
     pub time: Duration,
+    /// How much processor time each of its processes may use.
+    pub processor: Duration,
     /// How much memory it may have, in MiB.
     pub memory: u64,
     /// How large a file may become that it writes, in blocks of 512 bytes.
@@ -102,7 +108,7 @@ pub fn has_bubblewrap() -> bool {
 /// number 3, and lets what is printed go where errors go. A limit that the system does not know is
 /// passed over.
 const SHELL: &str =
-    "{ ulimit -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
+    "{ ulimit -H -t $(($1 + 2)); ulimit -S -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
 shift 3
 exec \"$@\" 3>&1 1>&2 </dev/null";
 
@@ -110,7 +116,7 @@ impl Program {
     fn spawn(&self, limits: Limits) -> Result<Child, CheckError> {
         let mut command = Command::new("sh");
         command.args(["-c", SHELL, "sh"]);
-        command.arg((limits.time.as_secs() + 2).to_string());
+        command.arg(limits.processor.as_secs().max(1).to_string());
         command.arg((limits.memory << 10).to_string());
         command.arg(limits.file_blocks.to_string());
         if has_bubblewrap() {

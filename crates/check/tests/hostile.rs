@@ -3,7 +3,6 @@
 
 mod support;
 
-use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -19,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(40);
 
 /// What the light does, and what is said of it under Photon Emission; nothing where it comes to
 /// nothing. A probe has 3 s of the processor, and sleeping for 4 s takes none of it.
-const DEEDS: [(&str, &str); 16] = [
+const DEEDS: [(&str, &str); 17] = [
     ("sleep", ""),
     ("loop", "does not end within 3 s"),
     ("crash", "segmentation fault"),
@@ -33,6 +32,7 @@ const DEEDS: [(&str, &str); 16] = [
     ("forks", ""),
     ("socket", ""),
     ("file", ""),
+    ("read", ""),
     ("print", ""),
     ("forge", ""),
     ("forge-all", "writes to the pipe"),
@@ -49,7 +49,7 @@ fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
     let workshop = workshop.expect("a workshop");
     let program = workshop.build(1).expect("a compiler").expect("it compiles");
     let observed = |deed: &str| {
-        fs::write(workshop.path().join("mistake"), deed).expect("can be written");
+        let program = support::named(&program, deed);
         run(&program, workshop.path(), 100, TIME).expect("it runs")
     };
     for (deed, words) in DEEDS {

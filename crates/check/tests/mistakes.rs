@@ -4,9 +4,12 @@
 mod support;
 
 use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use check::find::CppSubmission;
+use check::kit::Kit;
 use check::report::Builds;
 use check::sections::Status;
 use check::{CheckReport, CheckSettings, check};
@@ -291,4 +294,87 @@ fn a_recursion_without_end_at_a_miss_is_told_under_storage() {
                  currentIOR, remainingBounces);\n        return;";
     let Some(report) = report(&[(miss, again)]) else { return };
     assert_eq!(faults(&report), [(Section::PhotonStorage, None)], "{}", sections_text(&report));
+}
+
+/// What lies outside of the submission is shown to nobody, whatever reads it.
+#[test]
+fn files_that_were_not_handed_in_are_not_read() {
+    let Some(kit) = support::kit() else { return };
+    let outside = tempfile::tempdir().expect("a folder");
+    let secret = outside.path().join("secret.h");
+    fs::write(&secret, "hunter2 = no_type;\n").expect("can be written");
+    let secret = secret.display();
+    let at_top = [
+        format!("#include \"{secret}\"\n"),
+        format!("#include \"/usr/include/../..{secret}\"\n"),
+        format!("#define TEXT \"{secret}\"\n#include TEXT\n"),
+        format!("#line 1 \"{secret}\"\nnonsense;\n"),
+        format!("#define TEXT(x) #x\nconst char* text = TEXT(\n#include \"{secret}\"\n);\n"),
+        format!("#ifdef NO\n#endif\n#include \"{secret}\"\n#error stop\n"),
+        format!("__asm__(\".incbin \\\"{secret}\\\"\");\n"),
+        format!("__asm__(\".include \\\"{secret}\\\"\");\n"),
+        format!("__asm__(\".macro m a\\n.inc\\\\a \\\"{secret}\\\"\\n.endm\\nm bin\");\n"),
+        format!(
+            "__attribute__((section(\".text\\n.incbin \\\"{secret}\\\"\\n.section a\")))\
+                 void put() {{}}\n"
+        ),
+        "__asm__(\"no_such_instruction\");\n".to_owned(),
+    ];
+    for first in at_top {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+            let file = submissions().join("one_function").join(name);
+            let text = fs::read_to_string(file).expect("a file");
+            let first = if name == "PointLight.cpp" { &*first } else { "" };
+            fs::write(folder.path().join(name), format!("{first}{text}")).expect("can be written");
+        }
+        let submission = CppSubmission::find(folder.path()).expect("a submission");
+        let settings = CheckSettings { photons: 100, ..CheckSettings::default() };
+        let report = check(&submission, kit, &settings).expect("it can be checked");
+        let Builds::No(error) = &report.builds else { panic!("{first} builds: {report:?}") };
+        assert!(!format!("{report:?}").contains("hunter2"), "{first}: {report:?}");
+        let is_told = ["not handed in", "assembler code", "nonsense"];
+        assert!(is_told.iter().any(|words| error.message.contains(words)), "{first}: {error:?}");
+    }
+}
+
+#[test]
+fn a_compiler_that_never_ends_is_ended() {
+    let Some(kit) = support::kit() else { return };
+    let endless = "template <int n, class T> struct Tree { static const int count = \
+                   Tree<n - 1, T*>::count ^ Tree<n - 1, T[2]>::count; };\n\
+                   template <class T> struct Tree<0, T> { static const int count = 1; };\n\
+                   static const int count = Tree<40, char>::count;\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+        fs::write(folder.path().join(name), endless).expect("can be written");
+    }
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
+    let time = Duration::from_secs(2);
+    let settings = CheckSettings { time, ..CheckSettings::default() };
+    let report = check(&submission, kit, &settings).expect("it can be checked");
+    let told = report.builds.sentence();
+    assert!(told.contains("needs more than 2 s of processor time"), "{told}");
+}
+
+#[test]
+fn a_compiler_that_waits_for_a_busy_machine_has_time() {
+    if support::kit().is_none() {
+        return;
+    }
+    let mut kit = Kit::new(None).expect("there was one");
+    let folder = tempfile::tempdir().expect("a folder");
+    let slow = folder.path().join("slow");
+    let script = format!(
+        "#!/bin/sh\ncase \"$*\" in *PointLight.cpp) sleep 5;; esac\nexec {} \"$@\"\n",
+        kit.compiler.display()
+    );
+    fs::write(&slow, script).expect("can be written");
+    fs::set_permissions(&slow, fs::Permissions::from_mode(0o755)).expect("can be changed");
+    kit.compiler = slow;
+    let submission = CppSubmission::find(&submissions().join("one_function")).expect("one");
+    let settings =
+        CheckSettings { time: Duration::from_secs(4), photons: 100, ..CheckSettings::default() };
+    let report = check(&submission, &kit, &settings).expect("it can be checked");
+    assert_eq!(report.builds, Builds::Yes);
 }

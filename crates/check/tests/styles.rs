@@ -1,6 +1,5 @@
 //! The same mistakes in programs of different styles: every section's verdict is right, whatever a
-//! student writes around it. Each program is compiled once; a file in its working folder says which
-//! mistake it makes.
+//! student writes around it. Each program is compiled once; its name says which mistake it makes.
 
 mod support;
 
@@ -57,6 +56,7 @@ fn try_style(name: &str) {
         let to = folder.path().join(from.file_name().expect("a name"));
         fs::copy(from, to).expect("can be copied");
     };
+    copy(&styles.join("../hostile/name.h"));
     for from in [styles.clone(), styles.join(name)] {
         let entries = fs::read_dir(from).expect("a folder").map(|entry| entry.expect("one").path());
         entries.filter(|path| path.is_file()).for_each(|path| copy(&path));
@@ -67,7 +67,7 @@ fn try_style(name: &str) {
     let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("a workshop");
     let program = workshop.build(1).expect("a compiler").expect("it compiles");
     let verdicts = |mistake: u8| {
-        fs::write(workshop.path().join("mistake"), mistake.to_string()).expect("can be written");
+        let program = support::named(&program, &mistake.to_string());
         judge(&run(&program, workshop.path(), 100, TIME).expect("it runs"))
     };
     let mut wrong = Vec::new();

@@ -1,7 +1,9 @@
 //! `photon-mapping check`: compiles and runs the two C++ files of a submission, section by section.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use check::find::{CppSubmission, refuse_class};
@@ -49,9 +51,8 @@ pub struct CheckArgs {
     /// Each SUBMISSION is a class: a folder with a folder for each student
     #[arg(long)]
     class: bool,
-    /// How long the compiler may take for a file, and how long the whole run may take, in
-    /// seconds. A probe has 3 seconds of processor time at most, and so has the whole run after a
-    /// probe that hung
+    /// Processor time for each file to compile, and for the whole run, in seconds. Each probe of a
+    /// section has 3 seconds. On the clock, everything has five times as long
     #[arg(long, value_name = "SECONDS", default_value = "60",
           value_parser = values::whole(1_u64, 3600))]
     timeout: u64,
@@ -163,7 +164,9 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     let pages = Pages::new(&expectations, &grading.policy, folder.is_some());
     let best = grading.policy.best();
     let bar = progress::bar(arguments.quiet, "submissions", paths.len() as u64);
-    let one = |(found, file): (Result<CppSubmission, CliError>, String)| {
+    let in_order = Mutex::new(InOrder::default());
+    let prints_each = arguments.format == CheckFormat::Text && arguments.out.is_none();
+    let one = |found: Result<CppSubmission, CliError>, file: String| {
         let report = check(&found?, &kit, &settings).map_err(argument)?;
         let graded = check::grade::grade(&report, &grading, &expectations);
         let mut output = match arguments.format {
@@ -184,12 +187,30 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         let report = CheckReport { list: None, ..report };
         Ok(Checked { report, grade: graded.grade, file, output, problems })
     };
-    let results: Vec<Result<Checked, CliError>> =
-        found.into_par_iter().zip(files).map(one).collect();
+    // One after another, so that the first reports are the first to be ready.
+    let mut results: Vec<(usize, Result<Checked, CliError>)> = found
+        .into_iter()
+        .zip(files)
+        .enumerate()
+        .par_bridge()
+        .map(|(at, (found, file))| {
+            let result = one(found, file);
+            if prints_each {
+                let text = result.as_ref().map(|checked| text_of(checked, &grading.policy)).ok();
+                let mut in_order = in_order.lock().unwrap_or_else(PoisonError::into_inner);
+                bar.suspend(|| in_order.print(at, text));
+            }
+            (at, result)
+        })
+        .collect();
     bar.finish_and_clear();
+    results.sort_by_key(|(at, _)| *at);
+    if let Some(error) = in_order.into_inner().unwrap_or_else(PoisonError::into_inner).problem {
+        return Err(error);
+    }
     let mut problems = Vec::new();
     let mut all = Vec::new();
-    for result in results {
+    for (_, result) in results {
         match result {
             Ok(mut checked) => {
                 problems.append(&mut checked.problems);
@@ -214,9 +235,41 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         }
         (Some(_), _) => {}
         (None, Some(path)) => write(path, together())?,
+        (None, None) if prints_each => {
+            let grades: Vec<&Grade> = all.iter().map(|checked| &checked.grade).collect();
+            print_whole(&roll.text(&grades))?;
+        }
         (None, None) => print_whole(&together())?,
     }
     Ok(if problems.is_empty() { 0 } else { super::FAILED })
+}
+
+/// Prints reports as they come, each after those before it.
+#[derive(Default)]
+struct InOrder {
+    next: usize,
+    has_printed: bool,
+    /// Those that wait for others; nothing for a submission that could not be checked.
+    waiting: BTreeMap<usize, Option<String>>,
+    /// Why nothing can be printed any more.
+    problem: Option<CliError>,
+}
+
+impl InOrder {
+    fn print(&mut self, at: usize, text: Option<String>) {
+        self.waiting.insert(at, text);
+        while let Some(text) = self.waiting.remove(&self.next) {
+            self.next += 1;
+            let Some(text) = text.filter(|_| self.problem.is_none()) else { continue };
+            let gap = if self.has_printed { "\n" } else { "" };
+            self.has_printed = true;
+            self.problem = print_whole(&format!("{gap}{text}")).err();
+        }
+    }
+}
+
+fn text_of(checked: &Checked, policy: &Policy) -> String {
+    check::text::text(&checked.report, &checked.grade, policy.best())
 }
 
 fn argument(error: check::error::CheckError) -> CliError {
@@ -252,9 +305,7 @@ fn together(format: CheckFormat, all: &[Checked], policy: &Policy, roll: &Roll) 
     let grades: Vec<&Grade> = all.iter().map(|checked| &checked.grade).collect();
     match format {
         CheckFormat::Text => {
-            let best = policy.best();
-            let texts =
-                all.iter().map(|checked| check::text::text(&checked.report, &checked.grade, best));
+            let texts = all.iter().map(|checked| text_of(checked, policy));
             texts.collect::<Vec<_>>().join("\n") + &roll.text(&grades)
         }
         CheckFormat::Json => {

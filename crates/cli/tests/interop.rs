@@ -350,28 +350,89 @@ fn a_mistake_is_found_behind_a_fair_reading() {
     }
 }
 
+/// What a submission does, how many photons it emits, and the fair reading or the section to name.
+/// With more photons, more are mistaken for another.
+const WITHOUT_PHOTONS: [(&str, &str, Result<&str, &str>); 12] = [
+    (
+        "--reading literal --offset-normal 0 --offset-back 6.7e-3",
+        "1000000",
+        Ok(
+            "t and b to the letter of the handout, not normalized, offset 6.7e-3 back along the ray",
+        ),
+    ),
+    ("--mistake transposed-twice", "1000000", Err("Hemisphere Ray Transformation")),
+    (
+        "--offset-normal 0 --offset-direction 1e-3 --pull-back 1e-3",
+        "200000",
+        Ok("offset 1e-3 back along the ray, positions stored 1e-3 back along the ray"),
+    ),
+    ("--reading exchanged", "200000", Ok("t and b exchanged")),
+    (
+        "--reading literal --offset-normal 3e-3",
+        "200000",
+        Ok("t and b to the letter of the handout, not normalized, offset 3e-3 along the normal"),
+    ),
+    (
+        "--reading u2-first --offset-normal 0 --offset-back 2e-3",
+        "200000",
+        Ok("at each hit, the roulette's number, u2, u1 drawn in this order, offset 2e-3 back \
+            along the ray"),
+    ),
+    (
+        "--mistake unit-roulette --reading literal --offset-normal 0 --offset-back 6.7e-3",
+        "200000",
+        Err("Photon Scattering/Absorption"),
+    ),
+    (
+        "--mistake transposed-twice --offset-normal 1e-3",
+        "200000",
+        Err("Hemisphere Ray Transformation"),
+    ),
+    ("--mistake starts-at-light", "200000", Err("Hemisphere Ray Transformation")),
+    ("--mistake direct-stored", "200000", Err("Photon Storage")),
+    ("--mistake no-offset", "200000", Err("Hemisphere Ray Transformation")),
+    ("--mistake uniform-hemisphere", "200000", Err("Hemisphere Sampling")),
+];
+
 /// A list as the framework's tree gives it has another order, and no photons.
 #[test]
 fn lists_without_photons_are_compared_by_their_directions() {
     let folder = folder();
     let Some(program) = by_the_handout() else { return };
-    let compared = |arguments: &str| {
-        let list = list(program, folder.path(), &arguments.split_whitespace().collect::<Vec<_>>());
+    let compared = |arguments: &str, photons: &str| {
+        let mut arguments: Vec<_> = arguments.split_whitespace().collect();
+        // The last count is the one that counts.
+        arguments.extend(["--photons", photons]);
+        let list = list(program, folder.path(), &arguments);
         let text = std::fs::read_to_string(&list).expect("a list");
         let mut lines: Vec<_> = text.lines().map(first_nine_columns).collect();
         lines[1..].sort();
         let untold = folder.path().join("untold.csv");
         std::fs::write(&untold, lines.join("\n") + "\n").expect("can be written");
         let line = "compare --json --seed 148 --photons {} {}";
-        json(run_line(line, &[Path::new(PHOTONS), &untold]))
+        json(run_line(line, &[Path::new(photons), &untold]))
     };
-    let right = compared("");
+    let right = compared("", "1000000");
     assert_eq!(right["outcome"], "within-tolerance", "{right}");
     assert_eq!(right["wrong_to_light"], 0, "{right}");
-    let fair = compared("--reading literal --offset-normal 1e-3");
-    assert_eq!(fair["outcome"], "same-under-another-reading", "{fair}");
-    let wrong = compared("--mistake inverted-roulette");
-    assert_eq!(wrong["first_divergence"]["section"], "Photon Scattering/Absorption", "{wrong}");
+    for (arguments, photons, expected) in WITHOUT_PHOTONS {
+        let report = compared(arguments, photons);
+        assert!(!report["note"].to_string().contains("random numbers"), "{arguments}: {report}");
+        match expected {
+            Ok(reading) => {
+                assert_eq!(
+                    report["outcome"], "same-under-another-reading",
+                    "{arguments}: {report}"
+                );
+                assert_eq!(report["reading"], reading, "{arguments}");
+            }
+            Err(section) => {
+                assert_eq!(report["outcome"], "different", "{arguments}: {report}");
+                let divergence = &report["first_divergence"];
+                assert_eq!(divergence["section"], section, "{arguments}: {divergence}");
+            }
+        }
+    }
 }
 
 fn first_nine_columns(line: &str) -> &str {

@@ -48,6 +48,24 @@ pub struct Fair {
     pub stored: Shift,
 }
 
+/// Where a photon hits, in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct HitPoint {
+    /// The point.
+    pub point: Vec3,
+    /// The normal there.
+    pub normal: Vec3,
+    /// The direction of the photon.
+    pub incoming: Vec3,
+}
+
+impl HitPoint {
+    /// Where the scattered ray starts.
+    pub(crate) fn start(&self, shift: Shift) -> Vec3 {
+        self.point + shift.vector(self.normal, self.incoming)
+    }
+}
+
 /// The start is moved this far along the ray as well, so that no rounding lets it meet the surface
 /// it leaves. World units for the handout's scene; it changes no path.
 const AHEAD: f32 = 2e-5;
@@ -112,14 +130,18 @@ impl Fair {
         Some(Story { photon, seed: run.renderer.seed, emission, hits, ending })
     }
 
-    /// Where photon `photon` of `run` hits first, in world space.
-    pub fn first_hit(&self, run: &Run, photon: u64) -> Option<Vec3> {
+    /// What photon `photon` of `run` hits first.
+    pub fn first_hit(&self, run: &Run, photon: u64) -> Option<HitPoint> {
         let (_, light, _) = light_of(run, photon)?;
         let tries = self.tries.until_taken(&mut photon_random(run.renderer.seed, photon));
-        let ray = Ray::new(light.position, tries[tries.len() - 1].normalize());
+        let incoming = tries[tries.len() - 1].normalize();
         let mut state = IntersectionState::new();
-        let is_hit = run.scene().trace(&ray, Some(&mut state));
-        is_hit.then(|| run.placement.to_world(state.intersection_point()))
+        let ray = Ray::new(light.position, incoming);
+        run.scene().trace(&ray, Some(&mut state)).then(|| HitPoint {
+            point: run.placement.to_world(state.intersection_point()),
+            normal: state.compute_normal(run.scene()),
+            incoming,
+        })
     }
 
     fn scatter(

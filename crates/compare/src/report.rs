@@ -9,7 +9,7 @@ use super::differences::{Difference, Differences, count, same_to_light};
 use super::divergence::{Divergence, Lists};
 use super::explanation::{explain_fairly, has_other_draws};
 use super::known::KnownRun;
-use super::numbering::{REACHES, with_photons};
+use super::numbering::{links, with_photons};
 use super::numbers::thousands;
 use super::position_index::is_near;
 use super::same_rows::{has_same_bits, has_same_order, has_same_rows};
@@ -242,16 +242,15 @@ impl Report {
         };
         let mut explanation = explain(submission, &compared);
         let mut told = None;
-        for reach in REACHES {
-            if explanation.as_ref().is_some_and(|(_, left)| few(left)) {
-                break;
-            }
-            let Some(list) = with_photons(run, submission, reach) else { continue };
+        let is_explained = explanation.as_ref().is_some_and(|(_, left)| few(left));
+        let links = if is_explained { Vec::new() } else { links(run, submission) };
+        for link in links {
+            let Some(list) = with_photons(run, submission, &link) else { continue };
             let again = Compared::new(reference, &list, compared.tolerance);
             let found = explain(&list, &again);
             let is_explained = found.as_ref().is_some_and(|(_, left)| few(left));
-            // With a longer reach, only what turns out to explain all is to be trusted.
-            if is_explained || reach == REACHES[0] {
+            // If photons may be mistaken, only what turns out to explain all is to be trusted.
+            if is_explained || link.is_measured {
                 explanation = found;
                 told = Some((list, again));
                 break;

@@ -102,7 +102,8 @@ glm::vec3 read_vector(std::istream& in) {
 }
 
 bool read_plan(const char* path, Plan& plan) {
-    std::FILE* const file = std::fopen(path, "r");
+    const int descriptor = open_plan(path);
+    std::FILE* const file = descriptor >= 0 ? fdopen(descriptor, "r") : nullptr;
     if (file == nullptr) {
         return false;
     }

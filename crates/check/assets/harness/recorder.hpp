@@ -57,6 +57,8 @@ void all_steps_ended();
 void watch_the_stack();
 void give_processor_time(unsigned seconds);
 bool system_calls_are_filtered();
+// The file descriptor of the plan, which was opened before files were refused.
+int open_plan(const char* path);
 
 // Sends what is still in memory.
 void flush();

@@ -1,4 +1,4 @@
-// What a submission may do that is worse than a wrong picture: the file "mistake" says what.
+// What a submission may do that is worse than a wrong picture: the name of the program says what.
 #include "common/Scene/Lights/Point/PointLight.h"
 
 #include <cstdio>
@@ -10,17 +10,9 @@
 #include <thread>
 #include <unistd.h>
 
-static std::string chosen()
-{
-    char text[32] = "";
-    if (std::FILE* file = std::fopen("mistake", "r")) {
-        if (std::fscanf(file, "%31s", text) != 1) text[0] = 0;
-        std::fclose(file);
-    }
-    return text;
-}
+#include "name.h"
 
-static const std::string deed = chosen();
+static const std::string deed = name_of_program();
 
 struct AtStart
 {
@@ -53,6 +45,7 @@ void PointLight::GenerateRandomPhotonRay(Ray& ray) const
     if (deed == "forks") for (int i = 0; i < 1000; ++i) { fork(); syscall(SYS_fork); }
     if (deed == "socket" && socket(AF_INET, SOCK_STREAM, 0) >= 0) std::abort();
     if (deed == "file" && std::fopen("plan.txt", "w") != nullptr) std::abort();
+    if (deed == "read" && std::fopen("/etc/passwd", "r") != nullptr) std::abort();
     if (deed == "output") for (;;) std::puts(std::string(1 << 16, 'x').c_str());
     if (deed == "memory") {
         std::vector<std::vector<char>> all;

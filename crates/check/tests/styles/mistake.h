@@ -1,7 +1,9 @@
-// One program for all mistakes: the file "mistake" in the working folder says which one it makes.
+// One program for all mistakes: the number in its name says which one it makes.
 #pragma once
 
-#include <cstdio>
+#include <cstdlib>
+
+#include "name.h"
 
 enum Mistake {
     none,
@@ -28,16 +30,6 @@ enum Mistake {
 };
 
 inline Mistake mistake() {
-    static int number = -1;
-    if (number < 0) {
-        number = 0;
-        std::FILE* file = std::fopen("mistake", "r");
-        if (file != nullptr) {
-            if (std::fscanf(file, "%d", &number) != 1) {
-                number = 0;
-            }
-            std::fclose(file);
-        }
-    }
+    static const int number = std::atoi(name_of_program());
     return static_cast<Mistake>(number);
 }

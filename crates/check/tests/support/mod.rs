@@ -1,5 +1,6 @@
 //! What the tests of real C++ have in common.
 
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use check::kit::Kit;
@@ -17,4 +18,12 @@ pub fn kit() -> Option<&'static Kit> {
         }
     });
     made.as_ref()
+}
+
+/// `program` under another name, by which it chooses what it does.
+#[allow(dead_code, reason = "some tests have no choice")]
+pub fn named(program: &Path, name: &str) -> PathBuf {
+    let named = program.with_file_name(name);
+    std::fs::copy(program, &named).expect("can be copied");
+    named
 }
