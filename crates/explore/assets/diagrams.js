@@ -90,7 +90,7 @@ const diagrams = {
       text([x(0), 84], "0", "middle small"),
       text([clamp(x(survival), 60, 240), 84], `P_r = ${digits(survival)}`, "middle small"),
       text([x(1), 84], "1", "middle small"),
-      text([clamp(x(u), 102, 198), 18], outcome, "middle strong"),
+      text([clamp(x(u), 112, 188), 18], outcome, "middle strong"),
       arrow([x(u), 23], [x(u), 44], "path"),
       ...inBar(0, survival, "scatters"),
       ...inBar(survival, 1, "absorbed"));
@@ -117,7 +117,7 @@ const diagrams = {
       text([b[0], 166], "from the side", "middle small"));
   },
   frame(t, b, n, direction, bare) {
-    const at = oblique([150, 86], 64), center = at([0, 0, 0]);
+    const at = oblique([150, 82], 62), center = at([0, 0, 0]);
     // An arrow along an axis has its name there.
     const isFree = (axis) => [t, b, n].every((arrow) => dot(arrow, axis) < 0.9);
     const axes = ["x", "y", "z"].map((name, i) => {
@@ -133,12 +133,12 @@ const diagrams = {
     const [x, y, z] = [t, b, n].map((axis) => dot(direction, axis));
     // Longer than the others, so that it is in sight behind the new direction.
     const other = scale(unit(add(add(scale(t, bare * x), b, bare * y), n, z)), 1.35);
-    return picture(176, "The frame t, b, n in world axes, with the new direction",
+    return picture(184, "The frame t, b, n in world axes, with the new direction",
       ...axes,
       ...(isUnit(bare) ? [] : [group("dash", arrow(center, at(other), "no"))]),
       ...named,
       arrow(center, at(direction), "path"),
-      text([6, 170], isUnit(bare)
+      text([6, 178], isUnit(bare)
         ? "thick: the new direction"
         : "dashed: if t and b were not normalized", "small"));
   },
