@@ -1,25 +1,25 @@
 //! Finds the port's functions and the lines of each step in them, by the port's own step comments.
 
-#[path = "src/steps.rs"]
-#[allow(dead_code)]
-mod steps;
+#[path = "src/port/mod.rs"]
+mod port;
 
 use std::path::PathBuf;
 use std::{env, fs};
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=src/steps.rs");
+    println!("cargo::rerun-if-changed=src/port");
     let root = PathBuf::from(env::var_os("DEP_PHOTON_MAPPING_ROOT").expect("set by the port"));
     let read = |file: &str| {
         let path = root.join(file);
         println!("cargo::rerun-if-changed={}", path.display());
         fs::read_to_string(&path).map_err(|error| format!("{file}: {error}"))
     };
-    match steps::find(read) {
+    match port::find(read) {
         Ok(source) => {
             let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo"));
-            fs::write(out.join("source.rs"), source.to_rust()).expect("OUT_DIR can be written");
+            let json = serde_json::to_string(&source).expect("strings and numbers are JSON");
+            fs::write(out.join("source.json"), json).expect("OUT_DIR can be written");
         }
         Err(error) => {
             println!("cargo::error=explore shows the port's source, but {error}");

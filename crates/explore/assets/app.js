@@ -21,8 +21,8 @@ const KIND_LOOKS = {
 };
 /** Up to so many differing dots are drawn large. */
 const MOST_LARGE = 2000;
-/** Up to about so many lines of moved photons are drawn: more hide the box. */
-const MOST_LINES = 800;
+/** Of the moved photons about so many have a line, and of those of a cell: more hide the box. */
+const [MOST_LINES, MOST_LIT_LINES] = [150, 1000];
 
 class Page {
   photon = null;
@@ -142,18 +142,22 @@ class Page {
     view.setLines("moved", mode === "kind" ? this.movedLines() : []);
   }
 
-  /** Lines from where moved photons are to where they should be, always of the open photon. */
+  /** Lines from where moved photons are to where they should be: full ones of the open photon and
+   * of the cell that is lit, faint ones of some of the others. */
   movedLines() {
     const { run } = this, { moved_index: moved = [] } = run.sections;
-    const every = Math.ceil(moved.length / MOST_LINES), lines = [];
-    const alpha = Math.min(1, 20 / Math.sqrt(moved.length));
-    moved.forEach((stored, k) => {
-      const isOpen = run.photons[run.pathOf[stored]] === this.photon;
-      if (!this.looks[2 * (run.stored + k) + 1] || (k % every && !isOpen)) return;
-      const [a, b] = [this.place(stored), this.place(run.stored + k)];
-      lines.push({ a, b, color: "moved", width: isOpen ? 2.5 : 1, alpha: isOpen ? 1 : alpha });
+    const state = (k) => this.looks[2 * (run.stored + k) + 1];
+    const isOpen = (k) => run.photons[run.pathOf[moved[k]]] === this.photon;
+    const lines = (list, width, alpha) => list.map((k) => {
+      const [a, b] = [this.place(moved[k]), this.place(run.stored + k)];
+      return { a, b, color: "moved", width, alpha };
     });
-    return lines;
+    const all = [...moved.keys()].filter(state), others = all.filter((k) => !isOpen(k));
+    const lit = others.filter((k) => state(k) === 2);
+    const some = (list, most) => list.filter((_, i) => i % Math.ceil(list.length / most) === 0);
+    const thin = lit.length ? lines(some(lit, MOST_LIT_LINES), 1, 0.7)
+      : lines(some(others, MOST_LINES), 1, others.length > MOST_LINES ? 0.3 : 1);
+    return [...thin, ...lines(all.filter(isOpen), 2.5, 1)];
   }
 
   openDot(index) {
@@ -194,6 +198,8 @@ class Page {
       event.preventDefault();
       openNumber();
     });
+    on("back", "click", () => this.go(this.at - 1));
+    on("forward", "click", () => this.go(this.at + 1));
     on("play", "click", togglePlay);
     on("slider", "input", () => this.go(Number($("slider").value)));
     on("divergence", "click", () => this.openDivergence());

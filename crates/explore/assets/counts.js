@@ -15,7 +15,9 @@ const countsMethods = {
     const { comparison } = this.run;
     if (!comparison) return;
     $("comparison").hidden = false;
-    for (const id of ["verdict", "reason", "advice", "report"]) $(id).textContent = comparison[id];
+    $("comparison").classList.add(comparison.outcome);
+    for (const id of ["verdict", "reason", "advice", "report"])
+      $(id).replaceChildren(...prose(comparison[id]));
     $("divergence").hidden = comparison.photon === null;
     for (const kind of KINDS) {
       const words = ` ${thousands(comparison.counts[kind])} ${kind}`;
@@ -25,16 +27,21 @@ const countsMethods = {
 
   showTable() {
     const { run } = this;
+    if (run.comparison)
+      $("cells").textContent =
+        `Stored by the reference, in orange by the ${run.comparison.kind}, then expected`;
     const heading = (name, scope) => make("th", { scope, textContent: name });
     const top = ["surface", ...run.columns].map((name) => heading(name, "col"));
     const row = ({ name, cells }, index) => {
       const surface = index < run.surfaces.length ? index : null;
       const made = cells.map((cell, column) => {
+        const other = run.comparison?.table[index][column] ?? null;
         // The last column has all bounces, and the one before it all late ones.
         const last = cells.length - 1;
         const most = column < last - 1 ? column + 1 : Infinity;
         const bounces = [column === last ? 1 : column + 1, most];
-        return this.cell(cell, { name: `${name}, ${run.columns[column]}`, surface, bounces });
+        const only = { name: `${name}, ${run.columns[column]}`, surface, bounces };
+        return this.cell({ ...cell, other }, only);
       });
       return make("tr", {}, heading(name, "row"), ...made);
     };
@@ -43,9 +50,11 @@ const countsMethods = {
   },
 
   /** A cell of the table that lights and keeps the photons `only`. */
-  cell({ stored, expected, z }, only) {
+  cell({ stored, other, expected, z }, only) {
     const oneDigit = { maximumFractionDigits: 1, minimumFractionDigits: 1 };
     const words = [make("b", { textContent: thousands(stored) })];
+    if (other !== null)
+      words.push(make("b", { className: "extra", textContent: thousands(other) }));
     if (expected !== null)
       words.push(make("span", { textContent: expected.toLocaleString("en-US", oneDigit) }));
     if (z !== null) {
@@ -53,7 +62,8 @@ const countsMethods = {
       words.push(make("span", { className: Math.abs(z) > 4 ? "far" : "", textContent }));
     }
     const beside = expected === null ? "" : `, ${expected.toFixed(1)} expected`;
-    const ariaLabel = `${only.name}: ${stored} stored${beside}`;
+    const theirs = other === null ? "" : `, ${other} in the ${this.run.comparison.kind}`;
+    const ariaLabel = `${only.name}: ${stored} stored${theirs}${beside}`;
     const button = make("button", { type: "button", ariaPressed: "false", ariaLabel }, ...words);
     const light = (lit) => {
       this.lit = lit;
@@ -92,6 +102,11 @@ const countsMethods = {
         make("option", { value: "kind", textContent: "by difference", selected: true }));
   },
 };
+
+/** `words` for the page, in which no command and no option breaks at its hyphens. */
+const prose = (words) =>
+  words.split(/(--[\w-]+|photon-mapping \w+)/).map((part, i) =>
+    i % 2 ? make("span", { className: "whole", textContent: part }) : part);
 
 /** A small picture of a dot, for legends. */
 function swatch(color, shape) {

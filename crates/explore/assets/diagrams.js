@@ -15,10 +15,11 @@ const circle = ([cx, cy], r, kind = "") => draw("circle", { cx, cy, r, class: ki
 const text = ([x, y], words, kind = "") => draw("text", { x, y, class: kind }, words);
 const bar = (x, y, width, height, kind) => draw("rect", { x, y, width, height, class: kind });
 const group = (kind, ...children) => draw("g", { class: kind }, ...children);
-/** An arrow with its head. */
+/** An arrow with its head, which is small where the arrow is short. */
 function arrow(from, to, kind) {
-  const [ux, uy] = unit([to[0] - from[0], to[1] - from[1], 0]);
-  const corner = (side) => [to[0] - 8 * ux + side * 4 * uy, to[1] - 8 * uy - side * 4 * ux].join();
+  const way = [to[0] - from[0], to[1] - from[1], 0];
+  const [ux, uy] = scale(unit(way), Math.min(4, Math.hypot(...way) / 3));
+  const corner = (side) => [to[0] - 2 * ux + side * uy, to[1] - 2 * uy - side * ux].join();
   const points = `${to.join()} ${corner(1)} ${corner(-1)}`;
   return group(kind, line(from, to), draw("polygon", { points }));
 }
@@ -89,7 +90,7 @@ const diagrams = {
       text([x(0), 84], "0", "middle small"),
       text([clamp(x(survival), 60, 240), 84], `P_r = ${digits(survival)}`, "middle small"),
       text([x(1), 84], "1", "middle small"),
-      text([clamp(x(u), 102, 198), 18], outcome, "middle strong"),
+      text([clamp(x(u), 112, 188), 18], outcome, "middle strong"),
       arrow([x(u), 23], [x(u), 44], "path"),
       ...inBar(0, survival, "scatters"),
       ...inBar(survival, 1, "absorbed"));
@@ -116,7 +117,7 @@ const diagrams = {
       text([b[0], 166], "from the side", "middle small"));
   },
   frame(t, b, n, direction, bare) {
-    const at = oblique([150, 88], 62), center = at([0, 0, 0]);
+    const at = oblique([150, 82], 62), center = at([0, 0, 0]);
     // An arrow along an axis has its name there.
     const isFree = (axis) => [t, b, n].every((arrow) => dot(arrow, axis) < 0.9);
     const axes = ["x", "y", "z"].map((name, i) => {
@@ -130,15 +131,16 @@ const diagrams = {
       return group("", arrow(center, [x, y], name), text(place, name, "strong"));
     });
     const [x, y, z] = [t, b, n].map((axis) => dot(direction, axis));
-    const other = unit(add(add(scale(t, bare * x), b, bare * y), n, z));
-    return picture(176, "The frame t, b, n in world axes, with the new direction",
+    // Longer than the others, so that it is in sight behind the new direction.
+    const other = scale(unit(add(add(scale(t, bare * x), b, bare * y), n, z)), 1.35);
+    return picture(184, "The frame t, b, n in world axes, with the new direction",
       ...axes,
+      ...(isUnit(bare) ? [] : [group("dash", arrow(center, at(other), "no"))]),
       ...named,
       arrow(center, at(direction), "path"),
-      ...(isUnit(bare) ? [] : [group("dash", arrow(center, at(other), "no"))]),
-      text([6, 170], isUnit(bare)
+      text([6, 178], isUnit(bare)
         ? "thick: the new direction"
-        : "dashed: the direction if t and b were not normalized", "small"));
+        : "dashed: if t and b were not normalized", "small"));
   },
   offset(direction, normal, offset) {
     const cosine = dot(direction, normal), sine = Math.sqrt(Math.max(0, 1 - cosine * cosine));

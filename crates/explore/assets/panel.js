@@ -18,7 +18,7 @@ const panelMethods = {
   },
 
   say(words) {
-    $("no-story").textContent = words;
+    $("no-story").replaceChildren(...prose(words));
     $("no-story").hidden = words === "";
   },
 
@@ -113,7 +113,7 @@ const panelMethods = {
     $("more").replaceChildren(...more.flat());
     this.showChips();
     this.showSides(step);
-    showCode(run.source, source, step.values);
+    showCode(run.source, source, step);
     this.drawPath(step);
   },
 
@@ -138,6 +138,11 @@ const panelMethods = {
       bounce === here.bounce
         ? [chip(run.source.steps[name].short, i === at, () => this.go(i))] : []);
     $("names").replaceChildren(...names);
+    // Where a row does not fit, the one that is open is in sight.
+    for (const row of [$("path"), $("names")]) {
+      const open = row.querySelector("[aria-current]");
+      row.scrollLeft = open ? open.offsetLeft - row.offsetLeft - row.clientWidth / 3 : 0;
+    }
   },
 
   /** Whether the lists part at `step`. */
@@ -160,15 +165,25 @@ const panelMethods = {
   },
 };
 
-/** The port's functions of a step, its lines lit, values beside the lines that make them. */
-function showCode(source, step, values) {
-  const figures = step.parts.map((part) => {
-    const { name, file, first, lines } = source.functions[part.function];
+/** The port's functions of a step, the lines that run lit, values beside the lines that make
+ * them. */
+function showCode(source, { parts }, { holds, values }) {
+  const isIn = ([from, to], i) => i >= from && i <= to;
+  const figures = parts.map((part) => {
+    const { name, file, first, lines, branches } = source.functions[part.function];
+    const skipped = branches.filter((branch) => holds[branch.condition] !== branch.holds);
     const rows = lines.map((words, i) => {
-      const className = words.trim().startsWith("//") ? "comment" : "";
-      const code = make("code", { className, textContent: words || " " });
-      const isLit = i >= part.lit[0] && i <= part.lit[1];
-      const row = make("li", { value: first + i, className: isLit ? "lit" : "" }, code);
+      const here = skipped.filter((branch) => isIn(branch.lines, i));
+      const isSkipped = here.some((branch) => !branch.code), isLit = isIn(part.lit, i);
+      const code = make("code", { textContent: words || " " });
+      code.classList.toggle("comment", words.trim().startsWith("//"));
+      for (const { code: part } of here.filter((branch) => branch.code)) {
+        const [before, after] = words.split(part);
+        code.replaceChildren(before, make("span", { className: "skipped", textContent: part }),
+          after);
+      }
+      const className = isSkipped ? "skipped" : isLit ? "lit" : "";
+      const row = make("li", { value: first + i, className }, code);
       for (const [at, key] of part.values) {
         if (at !== i || values[key] === undefined) continue;
         const value = make("span", { className: "value", textContent: values[key] });

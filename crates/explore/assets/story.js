@@ -9,8 +9,9 @@ const about = (x) => `about ${Number(x.toPrecision(4))}`;
 const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
 const degrees = (cosine) => `${((Math.acos(clamp(cosine, -1, 1)) * 180) / Math.PI).toFixed(1)}°`;
 
-/** The steps of `story` in order: {bounce, name, say, values, more, lines, labels, diagram}. The
- * `values` stand beside lines of the code, and `more` stands beside none. */
+/** The steps of `story` in order: {bounce, name, holds, say, values, more, lines, labels,
+ * diagram}. `holds` has the conditions of the port's branches. The `values` stand beside lines of
+ * the code, and `more` stands beside none. */
 function stepsOf(run, story) {
   const { hits, ending } = story;
   const steps = [emissionStep(story), ...hits.flatMap((hit) => stepsOfHit(run, story, hit))];
@@ -19,6 +20,7 @@ function stepsOf(run, story) {
   steps.push({
     bounce: hits.length,
     name: isLimit ? "limit" : "miss",
+    holds: { bounce_limit: isLimit, no_hit: !isLimit },
     say: [isLimit
       ? "remainingBounces is less than 0, so the path ends."
       : "The ray meets no surface, so the photon leaves the scene and the path ends."],
@@ -35,6 +37,7 @@ function emissionStep({ tries, direction }) {
   return {
     bounce: 0,
     name: "emission",
+    holds: { in_sphere: true },
     say: [
       rejected === 0
         ? "The first point drawn in the cube lies in the sphere, so it is taken."
@@ -43,6 +46,7 @@ function emissionStep({ tries, direction }) {
       "Normalized, it is the direction in which the photon leaves the light.",
     ],
     values: {
+      loop: `runs ${tries.length === 1 ? "once" : `${tries.length} times`}`,
       x: taken[0], y: taken[1], z: taken[2],
       length_squared: square(tries.at(-1)), direction: vectorText(direction),
     },
@@ -119,7 +123,11 @@ function stepsOfHit(run, story, hit) {
   if (scattered)
     steps.push(hemisphereStep(hit, size), frameStep(hit, normalLine, size),
       rayStep(run, hit, normalLine, size));
-  return steps.map((step) => ({ bounce, ...step }));
+  const holds = {
+    bounce_limit: false, no_hit: false, has_bounced: stored, absorbed: !scattered,
+    is_parallel: isParallel(hit.face),
+  };
+  return steps.map((step) => ({ bounce, holds, ...step }));
 }
 
 function hemisphereStep({ position, face: { normal, tangent, bitangent }, u1, u2 }, size) {
@@ -159,7 +167,7 @@ function hemisphereStep({ position, face: { normal, tangent, bitangent }, u1, u2
 
 function frameStep({ position, face, direction, u1 }, normalLine, size) {
   const { normal, tangent, bitangent, bare, axis } = face;
-  const isX = axis[0] === 1, axisName = `(${axis.join(", ")})`;
+  const isX = !isParallel(face), axisName = `(${axis.join(", ")})`;
   const parallel = about(Math.abs(normal[0]));
   // The angle to the normal as it is, and as it would be with t and b of the length `bare`.
   const up = Math.sqrt(1 - u1), bareUp = up / Math.hypot(up, bare * Math.sqrt(u1));
@@ -212,5 +220,7 @@ function rayStep({ maxBounces, offset }, hit, normalLine, size) {
 
 const rayLine = (a, direction, size) =>
   ({ a, b: add(a, direction, 1.5 * size), color: "path", width: 3.5 });
+/** Whether the normal is too close to the x axis, so that another axis builds t. */
+const isParallel = ({ axis }) => axis[0] !== 1;
 /** Whether n × axis is as long as t: to see, not to compute with. */
 const isUnit = (bare) => Math.abs(bare - 1) < 1e-3;

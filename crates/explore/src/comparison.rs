@@ -26,6 +26,11 @@ pub(crate) fn tolerance(run: &Run) -> f32 {
     TOLERANCE * run.placement.length_to_world(scene_size(run.scene()))
 }
 
+const OTHER_NUMBERS: &str = "No path of this list is one of the reference's: it was made with \
+     another generator, seed or order of draws.";
+const GRADE_IT: &str = "That alone is no mistake, and where two photons part tells nothing. Run \
+     photon-mapping grade on the list: it judges the list by its statistics.";
+
 /// A record closer than this to the hit before it, in world units, tells no direction.
 const NEAREST: f32 = 0.01;
 
@@ -242,10 +247,39 @@ impl ListComparison {
         overlay
     }
 
+    /// Whether the other list draws other random numbers, so that its photons are others.
+    fn has_other_numbers(&self) -> bool {
+        let notes = self.report.note.as_deref().unwrap_or_default();
+        self.misreading().is_none() && notes.contains("the random numbers ")
+    }
+
+    /// How many photons the other list stores, surface by surface and last in total: at the bounces
+    /// 1, 2, 3, above, and at all. Nothing where the list does not tell it.
+    fn table(&self, surfaces: usize) -> Vec<[Option<u64>; 5]> {
+        let PhotonList { columns, records } = &self.submission;
+        let mut table = vec![[columns.surface.then_some(0); 5]; surfaces];
+        table.push([Some(0); 5]);
+        if !columns.bounce {
+            table.iter_mut().for_each(|row| row[..4].fill(None));
+        }
+        for record in records {
+            // Of a surface or a bounce that the reference does not have, only the sums tell.
+            let of_bounce = usize::from(record.bounce).checked_sub(1).map(|at| at.min(3));
+            let of_surface = usize::from(record.surface).min(surfaces);
+            for row in BTreeSet::from([of_surface, surfaces]) {
+                for column in of_bounce.into_iter().chain([4]) {
+                    table[row][column] = table[row][column].map(|count| count + 1);
+                }
+            }
+        }
+        table
+    }
+
     /// What the page shows above the box.
-    pub(crate) fn meta(&self) -> Value {
+    pub(crate) fn meta(&self, surfaces: usize) -> Value {
         let Report { outcome, differences, first_divergence, .. } = &self.report;
         let name = self.name();
+        let has_other_numbers = self.has_other_numbers();
         let same = match outcome {
             Outcome::Identical => Some("identical"),
             Outcome::WithinTolerance => Some("the same within the tolerance"),
@@ -257,6 +291,7 @@ impl ListComparison {
         let is_certain = divergence.is_none_or(|divergence| divergence.certain);
         let doubt = if is_certain || self.misreading().is_some() { "" } else { " (perhaps)" };
         let verdict = match (same, self.section()) {
+            (None, _) if has_other_numbers => format!("{name}: other random numbers"),
             (Some(same), _) => format!("{name}: {same}"),
             (None, Some(section)) => format!("{name}: {}{doubt}", section.title()),
             (None, None) => format!("{name}: different"),
@@ -272,14 +307,22 @@ impl ListComparison {
                 (reason, (*advice).to_owned())
             }
             Some(ShownMisreading { title, advice, .. }) => (sentence(title), (*advice).to_owned()),
+            None if has_other_numbers => (OTHER_NUMBERS.to_owned(), GRADE_IT.to_owned()),
             None => (found.map(sentence).unwrap_or_default(), note),
+        };
+        let outcome = match same {
+            Some(_) => "same",
+            None if has_other_numbers => "unknown",
+            None => "different",
         };
         json!({
             "kind": kind,
+            "outcome": outcome,
             "verdict": verdict,
             "reason": reason,
             "advice": advice,
             "report": self.report.text(),
+            "table": self.table(surfaces),
             "counts": {
                 "matched": differences.matched, "missing": differences.missing,
                 "moved": differences.moved, "extra": differences.extra,
@@ -302,9 +345,9 @@ fn values(
     let none = || "none".to_owned();
     let tell = |value: Option<Vec3>| value.map_or_else(none, |value| vector(&value.to_array()));
     let mut rows = Vec::new();
-    if reference.or(submission).is_some() {
-        let position = |record: &PhotonRecord| record.position;
-        let [a, b] = [reference, submission].map(|record| tell(record.map(position)));
+    // Where only one list has a record, what happens at this bounce tells its place.
+    if let Some((a, b)) = reference.zip(submission) {
+        let [a, b] = [a, b].map(|record| tell(Some(record.position)));
         rows.push(["position".to_owned(), a, b]);
     }
     // From a point as close as rounding, the way tells no direction.

@@ -15,7 +15,6 @@ pub mod misreading;
 mod pack;
 mod page;
 mod paths;
-mod source;
 
 use image::RgbImage;
 use oracle::summary::SurfaceSummary;

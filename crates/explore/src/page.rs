@@ -10,8 +10,9 @@ use sha2::{Digest as _, Sha256};
 
 use super::Exploration;
 use super::paths::Paths;
-use super::source::SOURCE;
 
+/// The port's source as the page shows it, found when this crate was built.
+const SOURCE: &str = include_str!(concat!(env!("OUT_DIR"), "/source.json"));
 const TEMPLATE: &str = include_str!("../assets/explore.html");
 const STYLE: &str = include_str!("../assets/explore.css");
 /// One script in strict mode, whose names do not leave it.
@@ -117,8 +118,8 @@ fn meta(exploration: &Exploration, paths: &Paths) -> String {
         "dotSize": paths.dot_size,
         "offset": paths.offset,
         "picture": format!("data:image/png;base64,{}", STANDARD.encode(png)),
-        "comparison": exploration.comparison.map(super::comparison::ListComparison::meta),
-        "source": SOURCE,
+        "comparison": exploration.comparison.map(|comparison| comparison.meta(surfaces.len())),
+        "source": serde_json::from_str::<Value>(SOURCE).expect("the build script wrote JSON"),
         "sections": paths.columns.sections(),
     });
     meta.to_string().replace('<', "\\u003c")

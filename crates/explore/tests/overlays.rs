@@ -3,7 +3,7 @@
 mod browser;
 mod support;
 
-use browser::launch;
+use browser::{Browser, launch};
 use compare::explain::explain;
 use explore::comparison::{ListComparison, Other};
 use explore::misreading;
@@ -12,7 +12,7 @@ use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
-use serde_json::json;
+use serde_json::{Value, json};
 use support::{Traced, float, write_page};
 use variants::run::Run;
 use variants::section::Section;
@@ -134,6 +134,63 @@ fn a_submission_shows_where_it_parts() {
         "same.csv: identical"
     );
     assert_eq!(browser.run("document.getElementById('divergence').hidden"), true);
+    assert_eq!(browser.text("document.getElementById('comparison').className"), "same");
+    browser.has_been_quiet();
+}
+
+/// The counts that the table shows of the submission, row by row.
+fn counts_of_submission(browser: &Browser) -> Value {
+    browser.run(
+        "[...document.querySelectorAll('#table tbody tr')].map((row) => \
+         [...row.querySelectorAll('button')].map((cell) => \
+         cell.querySelector('.extra')?.textContent.replace(',', '') ?? null))",
+    )
+}
+
+#[test]
+fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
+    let Some(browser) = launch(true) else { return };
+    let reference = traced("");
+    let other = Traced::of(Run::handout(2, PHOTONS), None);
+    for tells in [true, false] {
+        let mut list = other.list();
+        if !tells {
+            let none = false;
+            list.columns = Columns {
+                intensity: none,
+                to_light: none,
+                photon: none,
+                bounce: none,
+                surface: none,
+            };
+            list.records.iter_mut().for_each(|record| {
+                (record.photon, record.bounce, record.surface) = (u32::MAX, u16::MAX, u16::MAX);
+            });
+        }
+        let mine = submission("mine.csv");
+        let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
+        let page = write_page("seed", &reference.exploration(Some(&comparison)).page());
+        browser.open(&page, "");
+        let text = |id: &str| browser.text(&format!("document.getElementById('{id}').textContent"));
+        assert_eq!(text("verdict"), "mine.csv: other random numbers");
+        assert!(text("reason").contains("seed"), "{}", text("reason"));
+        assert!(text("advice").contains("photon-mapping grade"), "{}", text("advice"));
+        assert_eq!(browser.text("document.getElementById('comparison').className"), "unknown");
+        // What the list tells is counted, and nothing else.
+        let (surfaces, total) = &other.table;
+        let rows: Vec<Vec<Option<String>>> = surfaces
+            .iter()
+            .chain([total])
+            .map(|row| {
+                let cells = row.by_bounce.iter().take(3).chain([&row.late]);
+                let counts = cells.map(|cell| cell.stored).chain([row.stored]);
+                counts.map(|count| tells.then(|| count.to_string())).collect()
+            })
+            .collect();
+        let mut rows = json!(rows);
+        rows[surfaces.len()][4] = json!(total.stored.to_string());
+        assert_eq!(counts_of_submission(&browser), rows);
+    }
     browser.has_been_quiet();
 }
 

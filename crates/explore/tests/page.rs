@@ -10,18 +10,21 @@ use browser::launch;
 use compare::explain::{Hit, Story, explain};
 use explore::Exploration;
 use photon_mapping::assignment8;
+use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
 use serde_json::{Value, json};
 use support::{Traced, float, handout, open_handout, write_page};
 
-/// Each step of the photon that is open: its bounce, name, values beside the code, and other
-/// values.
+/// Each step of the photon that is open: its bounce, name, values beside the code, other values,
+/// the lines lit, and the parts of lines that do not run.
 const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
     link: page.link, say: document.getElementById('say').textContent,
     values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => \
         [v.dataset.name, v.textContent])),
     more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, \
-        t.nextSibling.textContent])) }; })";
+        t.nextSibling.textContent])),
+    lit: [...document.querySelectorAll('#code .lit code')].map((c) => c.textContent.trim()),
+    skipped: [...document.querySelectorAll('#code span.skipped')].map((c) => c.textContent) }; })";
 
 /// The pixels of all photons that the handout's camera sees.
 fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
@@ -126,6 +129,11 @@ fn clicking_a_dot_opens_its_photon() {
     browser.has_been_quiet();
 }
 
+/// Whether `step` lights the line `code`.
+fn is_lit(step: &Value, code: &str) -> bool {
+    step["lit"].as_array().expect("a list").iter().any(|line| line == code)
+}
+
 fn vector(xyz: &[f32; 3]) -> String {
     compare::explain::vector(xyz)
 }
@@ -153,6 +161,11 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     assert_eq!(stored["values"]["path.len()"], (hit.bounce + 1).to_string());
     assert_eq!(roulette["values"]["rand()"], hit.roulette.to_string());
     assert_eq!(roulette["values"]["probability_of_reflection"], hit.survival.to_string());
+    assert!(is_lit(&at_hit, "if remaining_bounces < 0 {"));
+    assert!(is_lit(&stored, "if path.len() > 1 {"));
+    assert_eq!(is_lit(&stored, "photon_map.push(Photon {"), hit.stored);
+    assert!(is_lit(&stored, "path.push(PathVertex::Surface(state));"));
+    assert_eq!(is_lit(&roulette, "return;"), !hit.scattered);
     assert!(says(&roulette, if hit.scattered { "the photon scatters" } else { "is absorbed" }));
     let scattering = (hit.u1, hit.u2, hit.tangent, hit.bitangent, hit.direction);
     let (Some(u1), Some(u2), Some(tangent), Some(bitangent), Some(direction)) = scattering else {
@@ -165,6 +178,9 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     assert_eq!(frame["values"]["tangent"], vector(&tangent));
     assert_eq!(frame["values"]["bitangent"], vector(&bitangent));
     assert_eq!(frame["values"]["normal"], vector(&hit.normal));
+    let is_parallel = hit.normal[0].abs() > CLOSE_TO_PARALLEL;
+    let not_taken = if is_parallel { "{ Vec3::X }" } else { "{ Vec3::Y }" };
+    assert_eq!(frame["skipped"], json!([not_taken]));
     assert_eq!(ray["values"]["world_space_direction"], vector(&direction));
 }
 
@@ -188,6 +204,12 @@ fn check_story(story: &Story, steps: &Value) {
             "{told}"
         );
     }
+    let times = if tries.len() == 1 { "once".into() } else { format!("{} times", tries.len()) };
+    assert_eq!(emission["values"]["loop"], format!("runs {times}"));
+    // Every path ends by one `return`, at its last step.
+    let returns = steps.iter().map(|step| is_lit(step, "return;"));
+    let at: Vec<_> = returns.enumerate().filter(|(_, is_lit)| *is_lit).map(|(at, _)| at).collect();
+    assert_eq!(at, [steps.len() - 1], "photon {}", story.photon);
     for hit in &story.hits {
         let of_bounce = |step: &&Value| {
             step["link"]

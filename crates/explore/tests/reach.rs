@@ -83,6 +83,12 @@ fn it_works_on_a_phone() {
         }
     }
     browser.media("prefers-reduced-motion", "reduce");
+    browser.run("document.querySelector('.filters').open = true");
+    // A box to tick is as large as its label.
+    let smallest = "Math.min(...[...document.querySelectorAll('button, input, select, summary')]\
+         .filter((n) => n.offsetParent).map((n) => n.type === 'checkbox' ? n.parentNode : n).map((n) => \
+         n.getBoundingClientRect()).map((r) => Math.min(r.width, r.height)))";
+    assert!(float(&browser.run(smallest)) >= 40.0, "{}", browser.run(smallest));
     let place = browser.run(
         "(() => { const b = [...document.querySelectorAll('#names button')].find((b) => \
          b.textContent === 'Roulette'); b.scrollIntoView({ block: 'center' }); const r = \
@@ -90,6 +96,45 @@ fn it_works_on_a_phone() {
     );
     browser.tap(float(&place[0]), float(&place[1]));
     browser.wait_for("location.hash.endsWith('step=roulette')");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn box_story_and_code_are_seen_at_once_on_a_phone() {
+    let Some(browser) = launch(true) else { return };
+    let edges = |selector: &str| {
+        let [top, bottom] = ["top", "bottom"].map(|edge| {
+            let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
+            float(&browser.run(&format!("{node}.{edge}")))
+        });
+        (top, bottom)
+    };
+    for (width, height) in [(390, 844), (844, 390)] {
+        browser.size(width, height);
+        for step in ["hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
+            browser.open(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
+            let is_in_sight = |selector: &str| {
+                let (top, bottom) = edges(selector);
+                let place = format!("{selector}, {step} at {width} x {height}: {top} to {bottom}");
+                assert!(top >= 0.0 && bottom <= f64::from(height), "{place}");
+            };
+            // At once, with a line of code that runs.
+            ["#labels", "#say", "#forward", "#code .lit"].into_iter().for_each(is_in_sight);
+            // Further down, the box and the buttons that step stay.
+            browser.run("document.querySelector('#code').scrollIntoView({ block: 'end' })");
+            assert!(float(&browser.run("window.scrollY")) > 0.0);
+            is_in_sight("#forward");
+            assert_eq!(edges("#stage").0, 0.0, "{step} at {width} x {height}");
+        }
+    }
+    let before = browser.text("page.link");
+    let (top, bottom) = edges("#back");
+    browser.tap(
+        float(&browser.run("document.querySelector('#back').getBoundingClientRect().x")) + 9.0,
+        (top + bottom) / 2.0,
+    );
+    browser.wait_for(&format!("page.link !== '{before}'"));
+    assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=frame");
     browser.has_been_quiet();
 }
 

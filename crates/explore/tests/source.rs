@@ -1,8 +1,7 @@
 //! The build script's search through the port's source, and what it says when the port changed.
 
-#[path = "../src/steps.rs"]
-#[allow(dead_code)]
-mod steps;
+#[path = "../src/port/mod.rs"]
+mod port;
 
 use std::fs;
 use std::path::Path;
@@ -15,12 +14,12 @@ fn read(file: &str) -> Result<String, String> {
 /// The error where `from` stands as `to` in the port.
 fn error(from: &str, to: &str) -> String {
     let changed = |file: &str| read(file).map(|text| text.replace(from, to));
-    steps::find(changed).expect_err("the port was changed")
+    port::find(changed).expect_err("the port was changed")
 }
 
 #[test]
 fn the_port_has_all_steps() {
-    steps::find(read).unwrap();
+    port::find(read).unwrap();
 }
 
 #[test]
@@ -50,4 +49,50 @@ fn a_line_without_its_value_is_named() {
     let expected = "expected a line with 'let probability_of_reflection' for the step 'roulette' \
                     of 'trace_photon'";
     assert!(message.ends_with(expected), "{message}");
+}
+
+#[test]
+fn a_branch_that_no_story_tells_is_named() {
+    let loops = "let axis = if is_parallel { Vec3::Y } else { Vec3::X };";
+    for (from, to, found) in [
+        ("if path.len() > 1 {", "if path.len() > 2 {", "if path.len() > 2 {"),
+        (loops, "let axis = match is_parallel {", "let axis = match is_parallel {"),
+        ("path.push(", "for _ in 0..2 { } path.push(", "for _ in 0..2 { } path.push("),
+    ] {
+        let message = error(from, to);
+        let expected = format!("expected an 'if' whose condition a story tells, found '{found}");
+        assert!(message.contains(&expected), "{message}");
+        assert!(message.starts_with("src/rendering/"), "{message}");
+    }
+}
+
+#[test]
+fn each_branch_has_the_lines_that_it_decides() {
+    let source = serde_json::to_value(port::find(read).unwrap()).unwrap();
+    let mut told = Vec::new();
+    for function in source["functions"].as_array().unwrap() {
+        for branch in function["branches"].as_array().unwrap() {
+            let line = |at: usize| {
+                let at = branch["lines"][at].as_u64().unwrap() as usize;
+                function["lines"][at].as_str().unwrap().trim().to_owned()
+            };
+            let [name, code] = ["condition", "code"].map(|key| branch[key].as_str());
+            let code = code.map_or_else(|| [line(0), line(1)].join(" .. "), str::to_owned);
+            told.push(format!("{} {}: {code}", name.unwrap(), branch["holds"]));
+        }
+    }
+    let expected = [
+        "in_sphere true: break Vec3::new(x, y, z); .. }",
+        "bounce_limit true: return; .. }",
+        "bounce_limit false: if !self.stored_scene.trace(photon_ray, Some(&mut state)) { .. }",
+        "no_hit true: return; .. }",
+        "no_hit false: let intersection_point = \
+         state.intersection_ray.ray_position(state.intersection_t); .. }",
+        "has_bounced true: photon_map.push(Photon { .. }",
+        "absorbed true: return; .. }",
+        "absorbed false: let (u1, u2) = (rand(), rand()); .. }",
+        "is_parallel true: { Vec3::Y }",
+        "is_parallel false: { Vec3::X }",
+    ];
+    assert_eq!(told, expected);
 }

@@ -168,7 +168,7 @@ impl Browser {
 
     /// Makes the window `width` x `height` CSS pixels.
     pub fn size(&self, width: u32, height: u32) {
-        let is_phone = width < 500;
+        let is_phone = width.min(height) < 500;
         let size = json!({
             "width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone,
         });

@@ -1,0 +1,217 @@
+//! The steps of a photon's story: which lines of the port each runs, and beside which line a value
+//! stands.
+
+/// The titles of the handout's sections, which are the port's step comments.
+pub const SECTIONS: [&str; 5] = [
+    "Photon Emission",
+    "Photon Storage",
+    "Photon Scattering/Absorption",
+    "Hemisphere Sampling",
+    "Hemisphere Ray Transformation",
+];
+
+/// A step of a photon's story.
+pub struct PortStep {
+    /// Its name in links.
+    pub name: &'static str,
+    /// Its name on a button.
+    pub short: &'static str,
+    /// The section of the handout.
+    pub section: &'static str,
+    pub parts: &'static [PortPart],
+}
+
+/// What a step runs of one function.
+pub struct PortPart {
+    pub function: &'static str,
+    pub lines: LitLines,
+    /// What a line contains, and the value that stands beside it.
+    pub values: &'static [(&'static str, &'static str)],
+}
+
+/// The lines that a step lights.
+pub enum LitLines {
+    /// All under the step comment of a section.
+    Section(&'static str),
+    /// Of the lines under a step comment, from the first that contains one text to the next that
+    /// contains another.
+    Within(&'static str, &'static str, &'static str),
+    /// The whole function.
+    Body,
+}
+
+const EMISSION: &str = SECTIONS[0];
+const STORAGE: &str = SECTIONS[1];
+const SCATTERING: &str = SECTIONS[2];
+const SAMPLING: &str = SECTIONS[3];
+const TRANSFORMATION: &str = SECTIONS[4];
+
+/// The functions shown, and their files.
+pub const FUNCTIONS: [(&str, &str); 6] = [
+    ("generate_random_photon_ray", "src/scene/point_light.rs"),
+    ("trace_photon", "src/rendering/photon_mapping_renderer.rs"),
+    ("diffuse_reflection_ray", "src/rendering/photon_mapping_renderer.rs"),
+    ("sample_hemisphere", "src/rendering/sampling.rs"),
+    ("tangent_frame", "src/rendering/sampling.rs"),
+    ("spawn_ray", "src/scene/numerics.rs"),
+];
+
+/// How each `if` of these functions starts, and the name under which a story tells whether it
+/// holds.
+pub const CONDITIONS: [(&str, &str); 6] = [
+    ("if length_squared <= 1.0", "in_sphere"),
+    ("if remaining_bounces < 0", "bounce_limit"),
+    ("if !self.stored_scene.trace(", "no_hit"),
+    ("if path.len() > 1", "has_bounced"),
+    ("if rand() >= probability_of_reflection", "absorbed"),
+    ("if is_parallel", "is_parallel"),
+];
+
+pub const STEPS: [PortStep; 9] = [
+    PortStep {
+        name: "emission",
+        short: "Emission",
+        section: EMISSION,
+        parts: &[PortPart {
+            function: "generate_random_photon_ray",
+            lines: LitLines::Section(EMISSION),
+            values: &[
+                ("let direction = loop", "loop"),
+                ("let x = ", "x"),
+                ("let y = ", "y"),
+                ("let z = ", "z"),
+                ("let length_squared", "length_squared"),
+                ("direction.normalize()", "direction"),
+            ],
+        }],
+    },
+    PortStep {
+        name: "hit",
+        short: "Hit",
+        section: STORAGE,
+        parts: &[PortPart {
+            function: "trace_photon",
+            lines: LitLines::Within(STORAGE, "if remaining_bounces < 0", "let intersection_point"),
+            values: &[
+                ("if remaining_bounces < 0", "remaining_bounces"),
+                (".trace(photon_ray", "trace()"),
+                ("let intersection_point", "intersection_point"),
+            ],
+        }],
+    },
+    PortStep {
+        name: "stored",
+        short: "Stored?",
+        section: STORAGE,
+        parts: &[PortPart {
+            function: "trace_photon",
+            lines: LitLines::Within(STORAGE, "if path.len() > 1", "path.push("),
+            values: &[
+                ("if path.len() > 1", "path.len()"),
+                ("photon_map.push(", "photon_map.push()"),
+                ("to_light_ray", "to_light"),
+            ],
+        }],
+    },
+    PortStep {
+        name: "roulette",
+        short: "Roulette",
+        section: SCATTERING,
+        parts: &[PortPart {
+            function: "trace_photon",
+            lines: LitLines::Within(SCATTERING, SCATTERING, "return;"),
+            values: &[
+                ("let diffuse_response", "diffuse_response"),
+                ("let probability_of_reflection", "probability_of_reflection"),
+                ("if rand() >=", "rand()"),
+            ],
+        }],
+    },
+    PortStep {
+        name: "hemisphere",
+        short: "Hemisphere",
+        section: SAMPLING,
+        parts: &[
+            PortPart {
+                function: "trace_photon",
+                lines: LitLines::Within(SCATTERING, "let (u1, u2)", "let diffuse_reflection_ray"),
+                values: &[("let (u1, u2)", "u1"), ("let (u1, u2)", "u2")],
+            },
+            PortPart {
+                function: "sample_hemisphere",
+                lines: LitLines::Body,
+                values: &[
+                    ("let r = ", "r"),
+                    ("let theta = ", "theta"),
+                    ("let x = ", "x"),
+                    ("let y = ", "y"),
+                    ("let z = ", "z"),
+                ],
+            },
+        ],
+    },
+    PortStep {
+        name: "frame",
+        short: "Frame",
+        section: TRANSFORMATION,
+        parts: &[
+            PortPart {
+                function: "diffuse_reflection_ray",
+                lines: LitLines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
+                values: &[("let normal", "normal")],
+            },
+            PortPart {
+                function: "tangent_frame",
+                lines: LitLines::Body,
+                values: &[
+                    ("let is_parallel", "is_parallel"),
+                    ("let axis", "axis"),
+                    ("let tangent", "tangent"),
+                    ("let bitangent", "bitangent"),
+                ],
+            },
+        ],
+    },
+    PortStep {
+        name: "ray",
+        short: "New ray",
+        section: TRANSFORMATION,
+        parts: &[
+            PortPart {
+                function: "diffuse_reflection_ray",
+                lines: LitLines::Within(TRANSFORMATION, "spawn_ray(", "spawn_ray("),
+                values: &[("spawn_ray(", "world_space_direction")],
+            },
+            PortPart {
+                function: "spawn_ray",
+                lines: LitLines::Body,
+                values: &[("let (start, offset)", "start"), ("let (start, offset)", "offset")],
+            },
+            PortPart {
+                function: "trace_photon",
+                lines: LitLines::Within(SCATTERING, "self.trace_photon(", "remaining_bounces - 1"),
+                values: &[("remaining_bounces - 1", "remaining_bounces")],
+            },
+        ],
+    },
+    PortStep {
+        name: "miss",
+        short: "No hit",
+        section: STORAGE,
+        parts: &[PortPart {
+            function: "trace_photon",
+            lines: LitLines::Within(STORAGE, ".trace(photon_ray", "return;"),
+            values: &[(".trace(photon_ray", "trace()")],
+        }],
+    },
+    PortStep {
+        name: "limit",
+        short: "Bounce limit",
+        section: STORAGE,
+        parts: &[PortPart {
+            function: "trace_photon",
+            lines: LitLines::Within(STORAGE, "if remaining_bounces < 0", "return;"),
+            values: &[("if remaining_bounces < 0", "remaining_bounces")],
+        }],
+    },
+];
