@@ -39,7 +39,7 @@ const CSV_COLUMNS: [&str; 8] = [
 /// The options of `check`.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: photon-mapping check alice/ bob/\n\
-                  This runs code from strangers. Use a container or an account of its own.\n\
+                  This runs code from strangers. Use a container or a separate account.\n\
                   Exit codes: 0 all submissions were checked; 2 one could not be.")]
 pub struct CheckArgs {
     /// A folder with PointLight.cpp and PhotonMappingRenderer.cpp anywhere in it, or one of these
@@ -50,8 +50,8 @@ pub struct CheckArgs {
     #[arg(long)]
     class: bool,
     /// How long the compiler may take for a file, and how long the whole run may take, in
-    /// seconds. A probe has 3 seconds of processor time at most, and so has the whole run after a
-    /// probe that hung
+    /// seconds. Each probe may use 3 seconds of processor time. After a probe hangs, so may the
+    /// whole run
     #[arg(long, value_name = "SECONDS", default_value = "60",
           value_parser = values::whole(1_u64, 3600))]
     timeout: u64,

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use crate::error::CliError;
 use crate::output;
 
-/// The page that leads to the others.
+/// The page with links to all others.
 pub const INDEX: &str = "index.html";
-/// The longest name of a file without number and extension, in bytes, of which systems take 255.
+/// The longest name of a file without number and extension, in bytes. Systems allow 255 in all.
 const LONGEST_NAME: usize = 100;
 
 /// The folder `out` where `count` submissions get a file each, with the `extension` of a format
@@ -17,7 +17,7 @@ const LONGEST_NAME: usize = 100;
 /// file.
 ///
 /// # Errors
-/// When `out` can be no such folder, or has files of another run.
+/// If `out` cannot be such a folder, or has files of another run.
 pub fn places_of_each<'a>(
     extension: Option<&str>,
     out: Option<&Path>,
@@ -40,8 +40,8 @@ pub fn places_of_each<'a>(
     Ok((Some(folder.to_owned()), files))
 }
 
-/// For each submission of `names` the name of its file: its own, without what systems do not take
-/// or what leads elsewhere, and with `extension`.
+/// The file names for the submissions `names`: without characters that systems forbid or that lead
+/// to another folder, and with `extension`.
 fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<String> {
     // Also for systems that do not tell capitals apart.
     let mut seen = HashSet::from(["index".to_owned()]);
@@ -54,8 +54,8 @@ fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<
     names.map(|name| unique(name) + "." + extension).collect()
 }
 
-/// Refuses a `folder` with files of `extension` that are none of `files`: a page of an earlier run
-/// would pass for one of this.
+/// Refuses a `folder` with other files of `extension` than `files`: pages of an earlier run would
+/// look like pages of this one.
 ///
 /// # Errors
 /// When there is such a file.
@@ -77,7 +77,8 @@ fn refuse_others(folder: &Path, files: &[String], extension: &str) -> Result<(),
     }
 }
 
-/// The program, the day in UTC, and the command line unless it names who is to stay `anonymous`.
+/// The program, the day in UTC, and the command line. With `anonymous`, no command line, because it
+/// may have names.
 pub fn made_by(is_anonymous: bool) -> String {
     let day = jiff::Timestamp::now().strftime("%Y-%m-%d");
     let words: Vec<String> =
