@@ -54,8 +54,8 @@ Policy: a JSON object of scores. Those left out are
 \"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
 'undecided' means too few photons to decide: judge these yourself. 'plausible' is for incorrect \
 photons that are finite, on surfaces and indirect. 'misreadings' gives named misreadings a \
-score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each section \
-that 'check' finds right, by its title.
+score of their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each \
+section that 'check' finds right, by its title.
 
 Exit codes: 0 graded, whatever the grades; 2 an error.")]
 pub struct GradeArgs {

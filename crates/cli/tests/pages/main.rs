@@ -5,6 +5,7 @@ mod commands;
 mod computed;
 mod links;
 mod markdown;
+mod measured;
 mod numbers;
 #[path = "../support/mod.rs"]
 mod support;
