@@ -9,6 +9,7 @@ use photon_mapping::rendering::photon_mapping_renderer::PathVertex;
 use photon_mapping::scene::triangle::Triangle;
 use serde_json::Value;
 
+use crate::markdown::code_blocks;
 use crate::numbers::is_rounded;
 use crate::read;
 use crate::support::{folder, json, run_line, stdout};
@@ -61,6 +62,17 @@ fn numbers_of_the_expected_values() {
     // "About twice that of independent photons", of which each is stored at most once.
     let of_independent = expected.total.stored * (1.0 - expected.total.stored) * 1e6;
     assert!((1.9..2.3).contains(&(deviation * deviation / of_independent)));
+    let [_, second, third, ref later @ ..] = expected.total.error[..] else {
+        unreachable!("there are later hits")
+    };
+    let later = later.iter().copied().fold(0.0, f64::max);
+    for (words, bound) in [
+        ("|second|adaptive cubature of form factors|#|", second),
+        ("|third|adaptive cubature over the lit pieces|#|", third),
+        ("|later, and covariance|collocation on two meshes|#|", later),
+    ] {
+        assert_says("docs/accuracy.md", words, &[bound]);
+    }
     let of_cell = 10_000_f64.sqrt();
     let words = "with # expected is usually within # of it (the square root), and nearly always \
                  within #.";
@@ -160,6 +172,29 @@ fn photons_on_the_floor_of_both_frames() {
     let counts = ["", " --letter-of-the-handout"]
         .map(|option| floor(&format!("render --count-only --json --quiet{option}")));
     assert_says("ASSIGNMENT.md", "does not: # photons on the floor become #.", &counts);
+}
+
+/// What `merge` prints of the pieces that the page's script for Slurm traces.
+#[test]
+fn merge_prints_what_the_page_on_large_runs_shows() {
+    let folder = folder();
+    let pieces = ["0..500000", "500000..1000000"].map(|range| {
+        let out = folder.path().join(range);
+        run_line(&format!("render --range {range} --size 1x1 --quiet --out {{}}"), &[&out])
+            .success();
+        out.join("photons.ply")
+    });
+    let whole = folder.path().join("photons.ply");
+    let printed = run_line("merge {} {} --out {}", &[&pieces[0], &pieces[1], &whole]).success();
+    let printed = stdout(printed);
+    let blocks = code_blocks(&read("docs/large-runs.md"));
+    let (_, block) = blocks.iter().find(|(language, _)| language == "text").expect("a block");
+    let shown = block.lines().filter(|line| !line.starts_with('$') && *line != "...");
+    let shown: Vec<_> = shown.collect();
+    assert_eq!(shown.len(), 2, "{shown:?}");
+    for line in shown {
+        assert!(printed.lines().any(|printed| printed == line), "no '{line}' in\n{printed}");
+    }
 }
 
 /// The hash of the run that the page traces in pieces.

@@ -41,7 +41,8 @@ pub fn is_rounded(number: &str, value: f64) -> bool {
     let number = number.replace(',', "");
     let (digits, power) = number.split_once('e').unwrap_or((&number, "0"));
     let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let trailing = digits.len() - digits.trim_end_matches('0').len();
+    let round = digits.trim_end_matches('0').len();
+    let trailing = if round == 0 { 0 } else { digits.len() - round };
     let last = if decimals > 0 { -(decimals as i32) } else { trailing as i32 };
     let last = last + power.parse::<i32>().expect("a power of ten");
     let shown: f64 = number.parse().expect("a number");
