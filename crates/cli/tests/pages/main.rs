@@ -7,6 +7,7 @@ mod links;
 mod markdown;
 mod measured;
 mod numbers;
+mod release;
 #[path = "../support/mod.rs"]
 mod support;
 mod words;
