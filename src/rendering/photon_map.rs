@@ -6,7 +6,7 @@ use glam::Vec3;
 ///
 /// The only question has a fixed size, so a hashed grid with cells larger than the cube looks into
 /// at most eight short lists. The framework uses a kd-tree. Photons that share a coordinate, as all
-/// those on the floor do, unbalance many kd-trees; a grid does not mind. With 1,000,000 points, a
+/// those on the floor do, unbalance many kd-trees, but not a grid. With 1,000,000 points, a
 /// grid sorted by counting was built 7 times faster than the kd-tree of the crate kiddo, and
 /// answered twice as fast at this radius. Every answer is the same, because both decide by
 /// coordinates alone.

@@ -9,7 +9,7 @@ pub const CLOSE_TO_PARALLEL: f32 = 0.99;
 /// A unit direction over the z axis, distributed as the cosine of its angle to z (density z / pi
 /// over solid angle), from two numbers in [0, 1). Tangent space; equations (2) to (6).
 ///
-/// Its length is 1 but for rounding. `diffuse_reflection_ray` normalizes it once it is turned.
+/// Its length is 1 up to rounding. `diffuse_reflection_ray` normalizes it after turning it.
 pub fn sample_hemisphere(u1: f32, u2: f32) -> Vec3 {
     // Hemisphere Sampling
     let r = u1.sqrt();

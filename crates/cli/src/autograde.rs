@@ -1,4 +1,5 @@
-//! `photon-mapping autograde`: what Gradescope hands over becomes its results.json, whatever it is.
+//! `photon-mapping autograde`: grades any submission that Gradescope provides, and always leaves
+//! a results.json.
 //!
 //! `check` and `grade` run as programs of their own, so that one that hangs, crashes or takes all
 //! memory costs its part of the result alone.

@@ -41,7 +41,7 @@ const CSV_COLUMNS: [&str; 8] = [
 /// The options of `check`.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: photon-mapping check alice/ bob/\n\
-                  This runs code from strangers. Use a container or an account of its own.\n\
+                  This runs code from strangers. Use a container or a separate account.\n\
                   Exit codes: 0 all submissions were checked; 2 one could not be.")]
 pub struct CheckArgs {
     /// A folder with PointLight.cpp and PhotonMappingRenderer.cpp anywhere in it, or one of these

@@ -14,7 +14,7 @@ use variants::run::Run;
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
     /// The photon's number, counted from 0 over all lights; with --until-stored, where to start
-    /// looking [default with --until-stored: 0]
+    /// the search [default with --until-stored: 0]
     #[arg(required_unless_present = "until_stored", allow_negative_numbers = true,
           value_parser = values::whole(0_u64, u64::MAX))]
     photon: Option<u64>,

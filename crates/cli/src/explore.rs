@@ -41,7 +41,7 @@ pub struct ExploreArgs {
     #[arg(long, value_name = "NAME", conflicts_with = "scene",
           value_parser = clap::builder::PossibleValuesParser::new(misreading::names()))]
     misreading: Option<String>,
-    /// The folder for the page; it is made if need be
+    /// The folder for the page; created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     #[command(flatten)]

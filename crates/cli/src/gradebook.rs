@@ -15,14 +15,14 @@ use super::error::CliError;
 use super::export::{self, Student};
 use super::input;
 
-/// The options that are about the class, not about photons.
+/// The options about the class.
 #[derive(Debug, Args)]
 pub struct GradebookArgs {
     /// A CSV file with a column for names, and one for ids or e-mail addresses if there is one:
-    /// names and orders the submissions, and tells who handed in nothing
+    /// names and orders the submissions, and lists who handed in nothing
     #[arg(long, value_name = "FILE.csv")]
     roster: Option<PathBuf>,
-    /// Number the submissions in place of names, to show the grades around
+    /// Replace names with numbers, so that you can show the grades to others
     #[arg(long, conflicts_with = "roster")]
     anonymous: bool,
     /// The grades of an earlier run with --format json: says what changed
@@ -61,7 +61,7 @@ struct CheckedBefore {
     grade: Before,
 }
 
-/// What was handed in, what it is called, and whose it is if an export or its name says so.
+/// A submission: its file or folder, its name, and its student if an export or the name tells.
 type Named<T> = (Option<Student>, String, T);
 
 impl GradebookArgs {
@@ -150,8 +150,8 @@ fn student_of(exported: &BTreeMap<PathBuf, Student>, path: &Path) -> Option<Stud
     exported.get(path).cloned().or_else(in_name)
 }
 
-/// What a student or a course system called the file or folder `name`: its path's end, without what
-/// says that it is a list or a picture.
+/// The name that a student or a course system gave the file or folder `name`: the end of its path,
+/// without the words for a list or a picture.
 fn last_word(name: &str) -> &str {
     let word = last_part(name);
     let is_kind = |kind: &str| ["csv", "ply", "png"].contains(&kind.to_lowercase().as_str());
@@ -167,7 +167,7 @@ fn number(name: &str) -> u64 {
     name.bytes().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
-/// A list and a picture of one student that an export names apart become one submission.
+/// Joins a list and a picture that an export gives one student in two files.
 fn join(all: Vec<Named<HandedIn>>) -> Vec<Named<HandedIn>> {
     let mut joined: Vec<Named<HandedIn>> = Vec::new();
     for (student, name, one) in all {

@@ -36,7 +36,7 @@ use clap::{FromArgMatches, Parser, Subcommand};
 
 use error::{CliError, escaped};
 
-/// The exit code of everything that could not be done.
+/// The exit code after an error.
 const FAILED: u8 = 2;
 
 /// The program's version, and the versions whose photon lists are the same, bit by bit: see the
@@ -82,7 +82,7 @@ enum Command {
     Compare(Box<compare::CompareArgs>),
     /// Show every random number, hit and decision of one photon
     Explain(Box<explain::ExplainArgs>),
-    /// Write a page that shows the photons in 3-D and steps through the code on one of them
+    /// Write a page that shows the photons in 3-D and steps through the code for one of them
     Explore(Box<explore::ExploreArgs>),
     /// Grade lists and pictures, whatever their random numbers: correct, or which misreading
     Grade(grade::GradeArgs),
@@ -94,7 +94,7 @@ enum Command {
     Report(report::ReportArgs),
     /// Write a folder for a course: an autograder for Gradescope, or a project for students
     Kit(kit::KitArgs),
-    /// Grade what Gradescope hands over, and write its results.json
+    /// Grade the submission that Gradescope provides, and write its results.json
     Autograde(autograde::AutogradeArgs),
     /// Print the completions for a shell
     Completions(shell::CompletionsArgs),

@@ -44,7 +44,7 @@ pub struct RenderArgs {
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     size: (u32, u32),
-    /// The folder for the picture and the list; it is made if need be
+    /// The folder for the picture and the list; created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     /// Trace nothing: draw the dots of this list, PLY or CSV, with at least the columns x, y and z

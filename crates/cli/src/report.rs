@@ -14,13 +14,13 @@ use report::{self, FILES};
 /// The options of `report`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
-    /// The folder for the page, its plots and its data; it is made if need be
+    /// The folder for the page, its plots and its data; created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Fewer photons: under 20 seconds on two cores
     #[arg(long, conflicts_with = "long")]
     quick: bool,
-    /// Runs of 10^8 photons too: many times as long
+    /// Adds runs of 10^8 photons; takes minutes
     #[arg(long)]
     long: bool,
     /// No progress bar

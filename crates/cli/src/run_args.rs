@@ -1,4 +1,4 @@
-//! The options that say which run is meant; several verbs share them.
+//! The options that choose the run; several verbs share them.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use photon_mapping::scene::Scene;
 use variants::reading::Reading;
 use variants::run::Run;
 
-/// Which scene is meant.
+/// The options that choose the scene.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// A Wavefront OBJ model, y up, instead of the handout's; it is turned so that z is up. Needs
@@ -22,7 +22,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "FILE.obj", requires = "light")]
     scene: Option<PathBuf>,
     /// A point light of the scene: its position (z up), then its color, white if left out; may be
-    /// given several times, photons are shared by brightness
+    /// given several times; lights share the photons by brightness
     #[arg(long, value_name = "x,y,z[,r,g,b]", requires = "scene", value_parser = values::light,
           allow_hyphen_values = true)]
     light: Vec<ModelLight>,
@@ -51,7 +51,7 @@ impl SceneArgs {
     }
 }
 
-/// Which run of the reference is meant.
+/// The options that choose the run of the reference.
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The seed of all random numbers: the same seed gives the same photons [default: 148]

@@ -59,7 +59,7 @@ pub fn man(arguments: &ManArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
-/// `words` of a command line, with a `-q` before the verb behind it: there the verb knows it.
+/// `words` of a command line, with a `-q` before the verb moved behind it, where the verb reads it.
 pub fn quiet_after_verb(mut words: Vec<OsString>) -> Vec<OsString> {
     let is_quiet = words.get(1).is_some_and(|word| word == "-q" || word == "--quiet");
     let verb = words.get(2).and_then(|word| word.to_str());

@@ -1,4 +1,4 @@
-//! Values of arguments that are more than a number.
+//! Arguments that need more than parsing a number.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Hits by facet and bounce, direct hits too, counted by looking on.
+//! Hits by facet and bounce, direct hits too, counted while tracing.
 
 use std::ops::Range;
 

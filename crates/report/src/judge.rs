@@ -1,4 +1,4 @@
-//! Whether a path is possible: judged in f64, by what no photon in this scene can do.
+//! Judges in f64 whether a path is possible in this scene.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use model::facets::{Footprint, facet_of_triangles, plane_normal};
 use photon_mapping::rendering::photon_mapping_renderer::PathVertex;
 use photon_mapping::scene::Scene;
 
-/// What the paths that were looked at did.
+/// What the judged paths did.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HitVerdict {
     /// Hits on the plane that the photon had just left.
@@ -42,8 +42,8 @@ impl HitJudge {
         }
     }
 
-    /// Adds what `path` did to `verdict`. After the first impossible hit the path is not followed:
-    /// what comes of it says nothing more.
+    /// Adds what `path` did to `verdict`, up to its first impossible hit. What follows from that
+    /// hit means nothing.
     pub fn look(&self, scene: &Scene, path: &[PathVertex], verdict: &mut HitVerdict) {
         let mut left = None;
         for (number, hit) in surface_hits(path).enumerate() {

@@ -1,7 +1,7 @@
 //! `report`: what speed, precision, offset and sampler do to the accuracy, as a page with plots.
 //!
-//! A file for each section of the page; each measures, and gives its part of the page together with
-//! the numbers behind it as CSV. All errors are against [`oracle`], which traces nothing.
+//! Each section of the page has a file, which measures, writes its part of the page, and gives the
+//! numbers behind it as CSV. Errors are differences from [`oracle`], which traces no photon.
 
 pub mod both_precisions;
 mod convergence;
@@ -40,16 +40,16 @@ pub const FILES: [&str; 13] = [
     "sampler.svg",
 ];
 
-/// A part of the page, and the files it shows or rests on.
+/// A part of the page, with its plots and data.
 pub struct PageSection {
     /// Markdown, with its heading.
     pub markdown: String,
-    /// Names out of [`FILES`], and what is in them.
+    /// Names from [`FILES`], and the contents.
     pub files: Vec<(&'static str, String)>,
 }
 
-/// Measures all that `plan` asks for, and gives the files of the report: names out of [`FILES`],
-/// and what is in them. Calls `progress` with how many more photons have been traced.
+/// Measures everything in `plan`, and gives the files of the report: names from [`FILES`] and
+/// contents. Calls `progress` with the number of photons traced since the last call.
 pub fn run(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Vec<(&'static str, String)> {
     let speed = speed_runs::measure(plan, progress);
     let sections = [

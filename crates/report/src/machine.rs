@@ -42,7 +42,7 @@ pub fn section(plan: &Plan) -> PageSection {
     PageSection { markdown: text, files: Vec::new() }
 }
 
-/// The processor's name, where the system tells it.
+/// The processor's name, if the system gives one.
 fn processor() -> String {
     let known = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let name = known.lines().find(|line| line.starts_with("model name"));

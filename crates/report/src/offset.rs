@@ -1,5 +1,5 @@
-//! Where a scattered ray starts: what goes wrong with no offset, fixed ones, and the reference's
-//! rule.
+//! Where a scattered ray starts: errors without an offset, with fixed offsets, and with the
+//! reference's rule.
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -26,7 +26,7 @@ pub struct OffsetCase {
     rule: HitRule,
     place: Displacement,
     verdict: HitVerdict,
-    /// Hits that the path should have made and did not, and the other way round.
+    /// Hits that are missing from the path, and hits that should not be on it.
     lost: u64,
     extra: u64,
     /// All photons stored, right or wrong.
@@ -69,7 +69,7 @@ pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Offsets {
     Offsets { cases, true_stored: truth.stored() }
 }
 
-/// What a piece of the work found.
+/// The counts of one piece of the work.
 #[derive(Default)]
 struct OffsetCounts {
     verdict: HitVerdict,
@@ -217,8 +217,7 @@ fn signed_percent(change: f64) -> String {
     if change == 0.0 { "0 %".to_owned() } else { format!("{:+.2} %", 100.0 * change) }
 }
 
-/// Wrong photons over scale, and over displacement. Zeros are drawn below the least that can be
-/// seen.
+/// Wrong photons over scale, and over displacement. Zeros are drawn as half a photon.
 fn plot(cases: &[OffsetCase]) -> String {
     let shown = [
         (HitRule::None, Mark::Circles),

@@ -36,8 +36,7 @@ pub fn assemble(plan: &Plan, sections: &[PageSection]) -> String {
     page
 }
 
-/// The page `markdown` as one file that needs no other: the plots, which are among `files`, are in
-/// it.
+/// The page `markdown` as one self-contained file, with the plots among `files` embedded.
 pub fn html(markdown: &str, files: &[(&'static str, String)]) -> String {
     let address = |name: &str| {
         let (_, plot) = files.iter().find(|(file, _)| *file == name)?;

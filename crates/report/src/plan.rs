@@ -5,7 +5,7 @@ use super::rules::cases;
 /// How much of each is measured, in photons and seeds.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The options that ask for this plan again.
+    /// The options that select this plan.
     pub options: &'static str,
     /// Emitted photons of the runs of speed against error, ascending.
     pub sizes: Vec<u64>,

@@ -16,9 +16,9 @@ use photon_mapping::assignment8;
 use photon_mapping::random::photon_random;
 use photon_mapping::scene::numerics::LARGE_EPSILON;
 
-/// Hits of a path that are looked at.
+/// How many hits of a path are compared.
 const HITS: usize = 8;
-/// A path is timed this often in each precision, of which the fastest counts.
+/// How often each precision is timed. The fastest time counts.
 const ROUNDS: usize = 3;
 /// Photons a thread traces before it takes the next piece.
 const PIECE: u64 = 4096;
@@ -30,8 +30,8 @@ pub struct Precision {
     photons: u64,
     /// By number of the hit, the sorted distances between the points in f32 and f64.
     distances: [Vec<f64>; HITS],
-    /// Paths whose first other decision was in the emission, in what was hit, or between hit and
-    /// escape.
+    /// Paths whose first different decision was in the emission, in the facet hit, or between hit
+    /// and escape.
     emission: u64,
     other_facet: u64,
     hit_or_escape: u64,
@@ -120,7 +120,7 @@ impl Precision {
         }
     }
 
-    /// Numbers of hits of which enough were seen to tell their quantiles.
+    /// The hits with enough photons for quantiles.
     fn shown(&self) -> impl Iterator<Item = (usize, &Vec<f64>)> {
         self.distances.iter().enumerate().filter(|(_, distances)| distances.len() >= 100)
     }

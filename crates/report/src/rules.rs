@@ -1,5 +1,5 @@
-//! The rules for where a scattered ray starts that the report holds side by side, and in which
-//! places.
+//! The rules for where a scattered ray starts that the report compares, and the places of the
+//! scene.
 
 use super::transform::Displacement;
 
@@ -10,7 +10,7 @@ pub enum HitRule {
     None,
     /// This far along the normal, in the units of the scene as it comes.
     Fixed(f32),
-    /// As the program does with a model that it loads.
+    /// The program's rule for a model that it loads.
     Reference,
 }
 

@@ -13,7 +13,7 @@ use oracle::table::ExpectedTable;
 use variants::run::Run;
 use variants::sampler::Sampler;
 
-/// Hits that are looked at one by one; the last quantity is what is stored.
+/// How many hits are compared one by one. The last quantity is the stored photons.
 const HITS: usize = 4;
 const NAMES: [&str; HITS + 1] =
     ["first hits", "second hits", "third hits", "fourth hits", "stored"];
@@ -27,7 +27,7 @@ struct SamplerRun {
     counts: [u64; HITS + 1],
 }
 
-/// All runs, and what they are held against.
+/// All runs, and their expected values.
 pub struct Samplers {
     sizes: Vec<u64>,
     seeds: u64,
@@ -35,7 +35,7 @@ pub struct Samplers {
     runs: Vec<SamplerRun>,
 }
 
-/// Runs both samplers by turns, both through the same straight-line tracer.
+/// Runs both samplers in turn, with the same tracer.
 pub fn measure(plan: &Plan, progress: &(impl Fn(u64) + Sync)) -> Samplers {
     let table = ExpectedTable::of_assignment8();
     let mut expected = [table.total.stored; HITS + 1];

@@ -18,7 +18,7 @@ use photon_mapping::scene::Scene;
 pub struct SpeedRun {
     /// Photons emitted.
     pub emitted: u64,
-    /// The key of its random numbers.
+    /// Its seed.
     pub seed: u64,
     /// How long it took.
     pub seconds: f64,
@@ -26,7 +26,7 @@ pub struct SpeedRun {
     pub stored: Vec<u64>,
 }
 
-/// All runs, and what they are held against.
+/// All runs, and their expected values.
 pub struct Speed {
     /// Photons emitted, ascending.
     pub sizes: Vec<u64>,
@@ -34,7 +34,7 @@ pub struct Speed {
     pub seeds: u64,
     /// Size by size.
     pub runs: Vec<SpeedRun>,
-    /// What they should store.
+    /// The expected values.
     pub expected: ExpectedTable,
     /// The surface of each facet.
     pub surfaces: Vec<usize>,
@@ -89,7 +89,7 @@ fn planes(scene: &Scene) -> Vec<PlanePoints> {
     planes
 }
 
-/// The facet a photon lies on: a list names its surface, so it is the nearest plane of that.
+/// The facet a photon lies on. A list names its surface, so it is the nearest plane of that.
 fn facet(record: &PhotonRecord, planes: &[PlanePoints]) -> usize {
     let position = record.position.as_dvec3();
     let of_surface =
@@ -112,7 +112,8 @@ impl Speed {
         self.runs_of(size).map(|run| run.seconds).sum::<f64>() / self.seeds as f64
     }
 
-    /// Every run: when, and what it stored by facet; first what is expected for one photon.
+    /// Every run: its seconds and its stored photons by facet. The first row has the expected
+    /// values for one photon.
     pub fn runs_table(&self) -> Table {
         let names: Vec<_> = self
             .expected

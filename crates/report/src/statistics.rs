@@ -2,8 +2,8 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Fewer photons than this expected in a cell, and its error is no normal one: a few photons more
-/// or less decide it. Such cells have no interval and no part in a slope.
+/// A cell that expects fewer photons than this has an error far from normal. It gets no interval
+/// and no part in a slope.
 pub const FEWEST: f64 = 20.0;
 
 /// The squared relative errors of one run: one for each cell, of which all runs have the same.
@@ -12,10 +12,10 @@ pub type Squares = Vec<f64>;
 /// The runs at one number of photons.
 pub type Runs = Vec<Squares>;
 
-/// A number found from runs, and between which numbers chance leaves the true one with 95 %.
+/// A number estimated from runs, with its 95 % interval.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
-    /// As found.
+    /// The estimate.
     pub value: f64,
     /// The low end of the interval.
     pub low: f64,
@@ -24,7 +24,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The same under a rising function.
+    /// Applies an increasing function to all three.
     fn map(self, function: impl Fn(f64) -> f64) -> Self {
         let [value, low, high] = [self.value, self.low, self.high].map(function);
         Self { value, low, high }
@@ -32,8 +32,8 @@ impl Estimate {
 }
 
 /// `statistic` of `groups` of runs, with its interval by Tukey's jackknife (1958). Each run in turn
-/// is left out. What that changes says how far the statistic is off and how far it scatters. No law
-/// of the errors is assumed, and what the cells of one run have in common is in it.
+/// is left out. The changes estimate the bias and the standard error of the statistic. This assumes
+/// no distribution of the errors, and allows for correlated cells within a run.
 pub fn jackknife(groups: &[Runs], statistic: impl Fn(&[Runs]) -> f64) -> Estimate {
     let value = statistic(groups);
     let (mut bias, mut variance, mut fewest) = (0.0, 0.0, usize::MAX);
@@ -64,14 +64,14 @@ pub fn rms(runs: &Runs) -> Estimate {
     jackknife(std::slice::from_ref(runs), |groups| log_rms(&groups[0])).map(f64::exp)
 }
 
-/// How many times as large the variance of the one group of runs is as that of the other.
+/// The ratio of the variances of two groups of runs.
 pub fn variance_ratio(above: &Runs, below: &Runs) -> Estimate {
     let groups = [above.clone(), below.clone()];
     jackknife(&groups, |groups| 2.0 * (log_rms(&groups[0]) - log_rms(&groups[1]))).map(f64::exp)
 }
 
-/// The variance that one photon alone would have, when it falls as one over the `sizes` of the
-/// groups: the mean over the groups.
+/// The variance of a run of one photon, if variances fall as one over the `sizes` of the groups:
+/// the mean over the groups.
 pub fn variance_of_one(sizes: &[u64], groups: &[Runs]) -> Estimate {
     let of_one = |groups: &[Runs]| {
         let squares =
@@ -83,8 +83,6 @@ pub fn variance_of_one(sizes: &[u64], groups: &[Runs]) -> Estimate {
 
 /// The slope of the logarithm of the RMS over that of `sizes`, by least squares. All cells share
 /// one slope, and each has a height, so a cell may be missing at some sizes. `expected` is how many
-/// photons each cell expects for one that is emitted. None where no cell expects enough at two
-/// sizes.
 /// photons each cell expects for one that is emitted. None where no cell expects enough at two
 /// sizes.
 pub fn log_log_slope(sizes: &[u64], groups: &[Runs], expected: &[f64]) -> Option<Estimate> {
@@ -116,13 +114,12 @@ fn log_rms(runs: &[Squares]) -> f64 {
     0.5 * (runs.iter().flatten().sum::<f64>() / cells as f64).ln()
 }
 
-/// The largest number of events in a million tries that none in `tries` leaves likely (95 %): the
-/// rule of three.
+/// The upper 95 % limit on events per million tries if `tries` tries had none: the rule of three.
 pub fn most_per_million(tries: u64) -> f64 {
     3e6 / tries as f64
 }
 
-/// 95 % of Student's law with `freedom` degrees of it lie within this many standard deviations.
+/// The two-sided 95 % point of Student's t distribution with `freedom` degrees of freedom.
 fn student95(freedom: usize) -> f64 {
     let law = StudentsT::new(0.0, 1.0, freedom as f64).expect("there is at least one degree");
     law.inverse_cdf(0.975)

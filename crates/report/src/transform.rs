@@ -35,15 +35,15 @@ impl Displacement {
     }
 }
 
-/// A coordinate as the model file has it, before it was rounded to f32.
+/// A coordinate of the model file, before rounding to f32.
 fn figures(point: glam::Vec3) -> DVec3 {
     let figure =
         |float: f32| float.to_string().parse().expect("what a float prints as is a number");
     DVec3::from_array(point.to_array().map(figure))
 }
 
-/// The scene with its figures put in `place` and then rounded to f32: what a program traces that
-/// takes a model as it comes.
+/// The scene with its coordinates put in `place` and then rounded to f32, as in a program that
+/// takes a model as it is.
 pub fn as_it_comes(place: Displacement) -> Scene {
     let scene = assignment8::create_scene();
     let put = |point| place.apply(figures(point)).as_vec3();
@@ -58,7 +58,7 @@ pub fn as_it_comes(place: Displacement) -> Scene {
     Scene::new(scene.mesh_objects().to_vec(), triangles.collect(), lights.collect())
 }
 
-/// The scene put in `place` as a model file, read as the program reads a user's model.
+/// The scene in `place`, written as a model file and read the way the program reads a user's model.
 pub fn as_loaded(place: Displacement) -> Scene {
     let scene = assignment8::create_scene();
     let (text, materials) = model_text(&scene, place);

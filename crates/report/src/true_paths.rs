@@ -1,5 +1,5 @@
-//! Photons as they should fly: what a start is held against, photon by photon, with the same random
-//! numbers.
+//! The correct paths of the photons, to compare with other starts, photon by photon and with the
+//! same random numbers.
 
 use rayon::prelude::*;
 
@@ -8,8 +8,8 @@ use model::facets::facet_of_triangles;
 use photon_mapping::assignment8;
 use photon_mapping::random::photon_random;
 
-/// How far off a facet f64 starts its rays, in scene units: far above its rounding, and far below
-/// what decides where a photon goes.
+/// How far off a facet f64 starts its rays, in scene units: far above its rounding, and too small
+/// to change where a photon goes.
 const START: f64 = 1e-9;
 
 /// The facets that each photon hits, one after another, in the handout's scene.
@@ -33,8 +33,8 @@ impl TruePaths {
         self.0.iter().map(|hits| hits.len().saturating_sub(1) as u64).sum()
     }
 
-    /// Where the hits of `photon`, on the facets `found`, part from the true ones; none if they
-    /// never do.
+    /// Where the hits of `photon`, on the facets `found`, first differ from the true ones, if they
+    /// do.
     pub fn part(&self, photon: u64, found: impl Iterator<Item = usize>) -> Option<PathParting> {
         let truth = &self.0[photon as usize];
         let mut found = found.fuse();
@@ -46,14 +46,14 @@ impl TruePaths {
     }
 }
 
-/// The first hit at which a path is not what it should be; what comes of it says nothing more.
+/// The first hit at which a path is wrong. What follows from that hit means nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathParting {
     /// Its number, from 0.
     pub hit: usize,
     /// Whether the path should have gone on to a facet, and did not hit it.
     pub lost: bool,
-    /// Whether it hit a facet that it should not have hit; another than the right one is both.
+    /// Whether it hit a facet that it should not have hit. A wrong facet counts as both.
     pub extra: bool,
 }
 

@@ -23,7 +23,7 @@ use grading::submission::{MOST_RECORDS, Settings, grade_at_most, remark};
 use grading::verdict::{Grade, SAME_FILES};
 use photon_list::reader::MOST_BYTES;
 
-/// Longer lists are judged one at a time: memory is then that of one, however many there are.
+/// Longer lists are judged one at a time, so that memory holds only one of them.
 const MANY_RECORDS: usize = 300_000;
 
 /// All that is graded in one run.
@@ -41,10 +41,10 @@ pub struct Class<'a> {
     pub bar: ProgressBar,
 }
 
-/// What is kept of a grade when its file is written.
+/// What remains of a grade after its file is written.
 pub struct Kept {
     grade: Grade,
-    /// The only file's contents, where they go elsewhere.
+    /// The file's contents, if there is only one and it goes elsewhere.
     output: String,
     fingerprint: Option<Fingerprint>,
     /// What went wrong that is not the student's fault.
@@ -122,7 +122,7 @@ impl Class<'_> {
         Some(kept)
     }
 
-    /// Writes what Gradescope reads, if that is wanted.
+    /// Writes Gradescope's file if the format asks for it.
     fn write_results(&self, at: usize, kept: &mut Kept) {
         if self.format != GradeFormat::Gradescope {
             return;
@@ -134,7 +134,7 @@ impl Class<'_> {
         }
     }
 
-    /// Writes what all `graded` have in common.
+    /// Writes the one output for all `graded`.
     pub fn write(
         &self,
         graded: &[Kept],

@@ -8,9 +8,9 @@ use std::time::SystemTime;
 use crate::error::CliError;
 use crate::output;
 
-/// The page that leads to the others.
+/// The page with links to all others.
 pub const INDEX: &str = "index.html";
-/// The longest name of a file without number and extension, in bytes, of which systems take 255.
+/// The longest name of a file without number and extension, in bytes. Systems allow 255 in all.
 const LONGEST_NAME: usize = 100;
 
 /// The folder `out` where `count` submissions get a file each, with the `extension` of a format
@@ -18,7 +18,7 @@ const LONGEST_NAME: usize = 100;
 /// file.
 ///
 /// # Errors
-/// When `out` can be no such folder, or has files of another run.
+/// If `out` cannot be such a folder, or has files of another run.
 pub fn places_of_each<'a>(
     extension: Option<&str>,
     out: Option<&Path>,
@@ -41,8 +41,8 @@ pub fn places_of_each<'a>(
     Ok((Some(folder.to_owned()), files))
 }
 
-/// For each submission of `names` the name of its file: its own, without what systems do not take
-/// or what leads elsewhere, and with `extension`.
+/// The file names for the submissions `names`: without characters that systems forbid or that lead
+/// to another folder, and with `extension`.
 fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<String> {
     // Also for systems that do not tell capitals apart.
     let mut seen = HashSet::from(["index".to_owned()]);
@@ -55,8 +55,8 @@ fn file_names<'a>(names: impl Iterator<Item = &'a str>, extension: &str) -> Vec<
     names.map(|name| unique(name) + "." + extension).collect()
 }
 
-/// Refuses a `folder` with files of `extension` that are none of `files`: a page of an earlier run
-/// would pass for one of this.
+/// Refuses a `folder` with other files of `extension` than `files`: pages of an earlier run would
+/// look like pages of this one.
 ///
 /// # Errors
 /// When there is such a file.
@@ -78,7 +78,8 @@ fn refuse_others(folder: &Path, files: &[String], extension: &str) -> Result<(),
     }
 }
 
-/// The program, the day in UTC, and the command line unless it names who is to stay `anonymous`.
+/// The program, the day in UTC, and the command line. With `anonymous`, no command line, because it
+/// may have names.
 pub fn made_by(is_anonymous: bool) -> String {
     let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
     let day = &now[.."2026-01-01".len()];

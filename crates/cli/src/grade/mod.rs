@@ -39,34 +39,34 @@ Submissions: a file is a submission, and so is a folder. The list and the pictur
 are found by their contents. alice.csv and alice.png are one submission.
 
 Classes: a folder is a class if it has no list or picture of its own, but folders of at least \
-two students do. Use --class or --submission if a folder could be either. A fault of one \
-submission stops no other.
+two students do. Use --class or --submission if a folder could be either. A faulty \
+submission does not stop the others.
 
 Several lists or pictures in one folder: the one called photons or assignment8 is judged, or any \
 if all are the same. Otherwise none is. A remark names those left out.
 
 Output: text, JSON and CSV go to one file. gradescope and html write a file for each submission \
 into the folder --out, and html an index.html too. The exit code is 2 if a SUBMISSION does not \
-exist; the others are graded.
+exist, and the others are still graded.
 
 Policy: a JSON object of scores. Those left out are
   { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \
 \"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
-'undecided' is for too few photons: look at them yourself. 'plausible' is for incorrect photons \
-that are finite, on surfaces and indirect. 'unreadable' is also for what has nothing of a photon \
-map in it. 'misreadings' gives named misreadings a score of \
-their own: { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each section \
-that 'check' finds right, by its title.
+'undecided' means too few photons to decide: judge these yourself. 'plausible' is for incorrect \
+photons that are finite, on surfaces and indirect. 'unreadable' is also for what has nothing of a \
+photon map in it. 'misreadings' gives named misreadings a score of their own: \
+{ \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each section that \
+'check' finds right, by its title.
 
-Exit codes: 0 graded, whatever the grades; 2 could not be carried out.")]
+Exit codes: 0 graded, whatever the grades; 2 an error.")]
 pub struct GradeArgs {
     /// Photon lists (PLY or CSV) and pictures (PNG) of the handout's scene, or folders with them
     #[arg(value_name = "SUBMISSION", required = true)]
     submissions: Vec<PathBuf>,
-    /// A folder is a class: each folder, list and picture in it is a submission
+    /// Treat a folder as a class: each folder, list and picture in it is a submission
     #[arg(long, conflicts_with = "submission")]
     class: bool,
-    /// A folder is one submission, whatever is in it
+    /// Treat a folder as one submission, whatever is in it
     #[arg(long)]
     submission: bool,
     /// How many photons each submission emitted [default: what the intensities say]
@@ -180,13 +180,13 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     }
 }
 
-/// Whether there is nothing at all at `path`: a link that leads nowhere is something.
+/// Whether `path` does not exist. A broken symlink exists.
 fn is_missing(path: &Path) -> bool {
     path != Path::new(STANDARD_INPUT)
         && path.symlink_metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
 }
 
-/// A bar on a terminal, when there is something to wait for.
+/// A progress bar on a terminal.
 fn progress(count: usize) -> ProgressBar {
     if count < 2 || !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
@@ -195,7 +195,7 @@ fn progress(count: usize) -> ProgressBar {
     ProgressBar::new(count as u64).with_style(style.expect("the template is well formed"))
 }
 
-/// What the submissions are held against.
+/// What the submissions are judged by.
 pub fn expectations(max_bounces: i32) -> Expectations {
     let places = Places::new(&assignment8::create_scene());
     let signatures = Signatures::of_limit(&places, max_bounces);

@@ -15,9 +15,9 @@ use variants::section::Section;
 const SCORES: [&str; 6] =
     ["correct", "undecided", "plausible", "incorrect", "no-dots", "unreadable"];
 const TABLES: [&str; 2] = ["misreadings", "sections"];
-/// Words more alike than this, of at most 1, may be taken for each other.
+/// Words whose similarity (at most 1) exceeds this may be typos of each other.
 const ALIKE: f64 = 0.8;
-/// So many names are too many for a message.
+/// From this many names on, a message does not list them.
 const MANY: usize = 10;
 
 /// The policy in the file `path`, or the handout's.
@@ -91,7 +91,7 @@ fn line_of(text: &str, key: &str) -> usize {
     text.lines().position(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
 }
 
-/// That no `kind` is called `name`, and which of the `known` may have been meant.
+/// The message that no `kind` is called `name`, with the closest of the `known` names.
 fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
     let alike = |known: &&&str| match known.to_lowercase().contains(&name.to_lowercase()) {
         true => 1.0,

@@ -9,7 +9,7 @@ use classroom::intake::HandedIn;
 use grading::submission::Submission;
 use photon_list::reader::MOST_BYTES;
 
-/// How standard input is called.
+/// The name of standard input on the command line.
 pub const STANDARD_INPUT: &str = "-";
 
 /// Standard input as a file, if `-` is named.

@@ -1,4 +1,4 @@
-//! `photon-mapping kit`: folders that a course takes over as they are.
+//! `photon-mapping kit`: folders for a course, ready to use.
 
 mod gradescope;
 mod lock;

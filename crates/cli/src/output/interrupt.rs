@@ -1,4 +1,4 @@
-//! What happens when the program is told to end.
+//! What happens when a signal ends the program.
 
 /// On Ctrl-C and its like, removes the files being written and ends with the exit code that shells
 /// expect: 128 and the number of the signal.

@@ -1,5 +1,6 @@
 //! The one place that writes files. A plain file appears whole or not at all: it is written beside
-//! its place, then renamed. Devices, pipes and what a shell has opened are written to at the end.
+//! its place, then renamed. Devices, pipes and files that a shell has opened are written to at the
+//! end.
 
 mod interrupt;
 mod unfinished;
@@ -17,13 +18,13 @@ pub use interrupt::remove_unfinished_files_on_interrupt;
 /// Files that are read, which no output may replace.
 static INPUTS: Mutex<Vec<Identity>> = Mutex::new(Vec::new());
 
-/// What is the same for all names of a file.
+/// Identifies a file, whatever its name.
 #[cfg(unix)]
 type Identity = (u64, u64);
 #[cfg(not(unix))]
 type Identity = PathBuf;
 
-/// What the names of files end in that a folder is hardly called like.
+/// Endings of file names that no folder is likely to have.
 const FILE_EXTENSIONS: [&str; 10] =
     ["csv", "htm", "html", "json", "md", "obj", "ply", "png", "txt", "zip"];
 
@@ -34,7 +35,7 @@ pub fn protect<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {
     INPUTS.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(files);
 }
 
-/// The folder `path` for several files, which is made when the first of them is.
+/// The folder `path` for several files. It is created with the first of them.
 ///
 /// # Errors
 /// When it is a file, or has the name of one.
@@ -60,7 +61,7 @@ pub fn folder(path: &Path) -> Result<&Path, CliError> {
 /// Writes `contents` to the file `path`.
 ///
 /// # Errors
-/// When it cannot be written; what stood there before is then still there.
+/// If it cannot be written. The old file is then still there.
 pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), CliError> {
     let mut file = OutputFile::create(path)?;
     let written = file.file().write_all(contents.as_ref());
@@ -78,12 +79,12 @@ pub struct OutputFile {
 enum Destination {
     /// Into a file beside `target`, which it then replaces.
     Beside { file: NamedTempFile, target: PathBuf },
-    /// Into a file without a name, then through what stands at the path.
+    /// Into a file without a name, then into the device or pipe at the path.
     Through(File),
 }
 
 impl OutputFile {
-    /// Starts the file `path`, whose folder is made if need be.
+    /// Starts the file `path`, and creates its folder if there is none.
     ///
     /// # Errors
     /// When the folder cannot be made or written to, or `path` cannot be replaced.
@@ -118,7 +119,7 @@ impl OutputFile {
         Ok(Self { path: path.to_owned(), place })
     }
 
-    /// Where the file will stand.
+    /// The path of the finished file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -134,7 +135,7 @@ impl OutputFile {
     /// Puts the file in its place.
     ///
     /// # Errors
-    /// When it cannot be renamed or written; what stood in its place is then still there.
+    /// If it cannot be renamed or written. The old file is then still there.
     pub fn persist(self) -> Result<(), CliError> {
         let Self { path, place } = self;
         let written = match place {
@@ -151,7 +152,7 @@ impl OutputFile {
     }
 }
 
-/// Whether `path` is one of the names that the system gives to what is open.
+/// Whether `path` is a name of an open file, such as `/dev/stdout`.
 fn is_of_system(path: &Path) -> bool {
     path.starts_with("/dev") || path.starts_with("/proc")
 }
@@ -179,7 +180,7 @@ fn identity(path: &Path) -> Option<Identity> {
     fs::canonicalize(path).ok()
 }
 
-/// Where a link at `path` leads that does not exist yet; else `path` itself.
+/// The target of a symlink at `path` that does not exist yet; else `path` itself.
 fn link_target(path: &Path) -> io::Result<PathBuf> {
     const MOST_LINKS: usize = 40;
     let mut target = path.to_owned();
@@ -196,7 +197,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
 
-/// Starts a file in the folder of `target`, which is made if need be.
+/// Starts a file in the folder of `target`, and creates the folder if there is none.
 fn beside(target: &Path) -> Result<NamedTempFile, CliError> {
     let folder = folder_of(target);
     fs::create_dir_all(folder).map_err(|error| CliError::unwritable(folder, error))?;

@@ -45,7 +45,7 @@ pub fn start(folder: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// Removes what this process has not finished; nothing is started any more.
+/// Removes the unfinished files of this process. After that, no file can be started.
 pub fn remove_own() -> MutexGuard<'static, Vec<PathBuf>> {
     let unfinished = lock(&UNFINISHED);
     for path in unfinished.iter() {
@@ -54,7 +54,7 @@ pub fn remove_own() -> MutexGuard<'static, Vec<PathBuf>> {
     unfinished
 }
 
-/// Removes what killed processes have left in `folder`, and says so.
+/// Removes the files that killed processes left in `folder`, and reports them.
 pub fn remove_stale(folder: &Path) {
     if !lock(&SEARCHED).get_or_insert_default().insert(folder.to_owned()) {
         return;

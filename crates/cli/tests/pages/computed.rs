@@ -1,11 +1,16 @@
 //! Numbers of pages that follow from the scene, from the expected values, or from a run.
 
+use std::convert::Infallible;
+
+use fast::trace::trace_list;
 use oracle::table::ExpectedTable;
 use photon_mapping::assignment8;
+use photon_mapping::rendering::photon_mapping_renderer::PathVertex;
 use photon_mapping::scene::triangle::Triangle;
 use serde_json::Value;
 
-use crate::numbers::{is_rounded, table};
+use crate::markdown::code_blocks;
+use crate::numbers::is_rounded;
 use crate::read;
 use crate::support::{folder, json, run_line, stdout};
 
@@ -28,7 +33,7 @@ fn numbers_at<'a>(text: &'a str, words: &str) -> Option<Vec<&'a str>> {
 
 /// Asserts that the page `path` has `words`, with `values` at the `#`s, rounded to the digits
 /// shown.
-fn assert_says(path: &str, words: &str, values: &[f64]) {
+pub fn assert_says(path: &str, words: &str, values: &[f64]) {
     let text = read(path).split_whitespace().collect::<Vec<_>>().join(" ");
     let places = text.char_indices().map(|(place, _)| &text[place..]);
     let found = places.filter_map(|text| numbers_at(text, words)).next();
@@ -51,11 +56,25 @@ fn numbers_of_the_expected_values() {
     let expected = ExpectedTable::of_assignment8();
     assert_says("ASSIGNMENT.md", "Per emitted photon, # are stored", &[expected.total.stored]);
     let deviation = (1e6 * expected.covariance.iter().flatten().sum::<f64>()).sqrt();
-    assert_says("README.md", "For the total it is # and #.", &[deviation, 3.0 * deviation]);
+    assert_says("README.md", "For the total, it is # and #.", &[deviation, 3.0 * deviation]);
     let words = "the standard deviation of the stored total is about #.";
     assert_says("docs/accuracy.md", words, &[deviation]);
+    // "About twice that of independent photons", of which each is stored at most once.
+    let of_independent = expected.total.stored * (1.0 - expected.total.stored) * 1e6;
+    assert!((1.9..2.3).contains(&(deviation * deviation / of_independent)));
+    let [_, second, third, ref later @ ..] = expected.total.error[..] else {
+        unreachable!("there are later hits")
+    };
+    let later = later.iter().copied().fold(0.0, f64::max);
+    for (words, bound) in [
+        ("|second|adaptive cubature of form factors|#|", second),
+        ("|third|adaptive cubature over the lit pieces|#|", third),
+        ("|later, and covariance|collocation on two meshes|#|", later),
+    ] {
+        assert_says("docs/accuracy.md", words, &[bound]);
+    }
     let of_cell = 10_000_f64.sqrt();
-    let words = "with # expected is mostly within # of it, the square root, and nearly always \
+    let words = "with # expected is usually within # of it (the square root), and nearly always \
                  within #.";
     assert_says("README.md", words, &[10_000.0, of_cell, 3.0 * of_cell]);
 }
@@ -92,6 +111,53 @@ fn numbers_of_the_scene_and_of_rounding() {
     assert_says("docs/numerics.md", "has coordinates good to # D", &[rounding]);
 }
 
+/// The farthest that a point hit lies from its triangle's plane.
+#[test]
+fn points_are_rounded_as_far_as_the_pages_say() {
+    let renderer = assignment8::create_renderer(assignment8::create_scene());
+    let mut farthest = 0_f64;
+    let photons = 0..renderer.photon_count;
+    renderer.generic_photon_map_generation(&mut Vec::new(), photons, |_, path, _| {
+        for vertex in path {
+            let PathVertex::Surface(state) = vertex else { continue };
+            let triangle = &renderer.stored_scene.triangles()[state.intersected_primitive];
+            let [a, b, c] = triangle.vertices.map(|corner| corner.as_dvec3());
+            let normal = (b - a).cross(c - a).normalize();
+            let height = (state.intersection_point().as_dvec3() - a).dot(normal).abs();
+            farthest = farthest.max(height);
+        }
+    });
+    assert_says("docs/numerics.md", "A rounded point lies up to # off its plane", &[farthest]);
+    assert_says("ASSIGNMENT.md", "A point on a ray is rounded, here by up to #,", &[farthest]);
+}
+
+#[test]
+fn variance_of_many_runs_is_that_of_theory() {
+    let (runs, photons) = (1_200, 20_000);
+    let expected = ExpectedTable::of_assignment8();
+    let mut renderer = assignment8::create_renderer(assignment8::create_scene());
+    renderer.photon_count = photons;
+    let mut squares = 0.0;
+    for seed in 1..=runs {
+        renderer.seed = seed;
+        let mut stored = 0;
+        let ended = trace_list(&renderer, 0..photons, |records, _| {
+            stored += records.len();
+            Ok::<(), Infallible>(())
+        });
+        assert!(ended.is_ok());
+        squares += (stored as f64 - photons as f64 * expected.total.stored).powi(2);
+    }
+    let theory = photons as f64 * expected.covariance.iter().flatten().sum::<f64>();
+    let ratio = squares / runs as f64 / theory;
+    // Sums over many photons are normal: the variance of a square is 2.
+    let error = (2.0 / runs as f64).sqrt();
+    assert!((ratio - 1.0).abs() < 3.0 * error, "{ratio} +- {error}");
+    let words = "In # other runs of # photons, the variance is # of theory, with a standard error \
+                 of #.";
+    assert_says("docs/accuracy.md", words, &[runs as f64, photons as f64, ratio, error]);
+}
+
 #[test]
 fn photons_on_the_floor_of_both_frames() {
     let floor = |line: &str| {
@@ -108,6 +174,29 @@ fn photons_on_the_floor_of_both_frames() {
     assert_says("ASSIGNMENT.md", "does not: # photons on the floor become #.", &counts);
 }
 
+/// What `merge` prints of the pieces that the page's script for Slurm traces.
+#[test]
+fn merge_prints_what_the_page_on_large_runs_shows() {
+    let folder = folder();
+    let pieces = ["0..500000", "500000..1000000"].map(|range| {
+        let out = folder.path().join(range);
+        run_line(&format!("render --range {range} --size 1x1 --quiet --out {{}}"), &[&out])
+            .success();
+        out.join("photons.ply")
+    });
+    let whole = folder.path().join("photons.ply");
+    let printed = run_line("merge {} {} --out {}", &[&pieces[0], &pieces[1], &whole]).success();
+    let printed = stdout(printed);
+    let blocks = code_blocks(&read("docs/large-runs.md"));
+    let (_, block) = blocks.iter().find(|(language, _)| language == "text").expect("a block");
+    let shown = block.lines().filter(|line| !line.starts_with('$') && *line != "...");
+    let shown: Vec<_> = shown.collect();
+    assert_eq!(shown.len(), 2, "{shown:?}");
+    for line in shown {
+        assert!(printed.lines().any(|printed| printed == line), "no '{line}' in\n{printed}");
+    }
+}
+
 /// The hash of the run that the page traces in pieces.
 #[test]
 fn large_run_has_the_hash_of_the_page() {
@@ -119,75 +208,4 @@ fn large_run_has_the_hash_of_the_page() {
     let hash = hash.expect("the name of the list");
     assert!(page.contains("--photons 40000000 --range"), "the page has another run");
     assert!(page.contains(&format!("`{hash}`")), "docs/large-runs.md lacks {hash}");
-}
-
-/// As many scenes and photons in the text and in the README as in the table.
-#[test]
-fn scenes_without_leaks_add_up() {
-    let page = read("docs/numerics.md");
-    let rows = table(&page, "Measured");
-    let cases: f64 = rows.iter().map(|row| row[1].parse::<f64>().expect("a number")).sum();
-    assert_says("docs/numerics.md", "photons a case; # x 10^9 in all", &[cases / 10.0]);
-    assert_says("README.md", "hit where they start, # scenes|0 of # x", &[cases, cases / 10.0]);
-    assert!(rows.iter().all(|row| row[2..].iter().all(|count| count == "0")), "{rows:?}");
-}
-
-/// What the benches printed is kept beside them.
-fn result(name: &str) -> String {
-    read(format!("crates/fast/benches/results/{name}.txt"))
-}
-
-#[test]
-fn stages_on_the_page_are_those_of_the_bench() {
-    let printed = result("stages");
-    let rows = printed.lines().filter(|line| line.starts_with('|')).skip(2);
-    let rows: Vec<Vec<&str>> = rows.map(|row| row.trim_matches('|').split('|').collect()).collect();
-    let page = table(&read("docs/speed.md"), "Where a photon's time goes");
-    assert_eq!(page.len(), rows.len());
-    for (shown, row) in page.iter().zip(&rows) {
-        for (shown, number) in shown[1..5].iter().zip(&row[1..5]) {
-            let agree = match number.parse() {
-                Ok(number) => is_rounded(shown, number),
-                Err(_) => shown == number,
-            };
-            assert!(agree, "{shown} is not {number}: {row:?}");
-        }
-    }
-    let number = |before: &str, after: &str| -> f64 {
-        let (start, _) = printed.split_once(after).unwrap_or_else(|| panic!("no '{after}'"));
-        let (_, number) = start.rsplit_once(before).expect("what is before it");
-        number.parse().expect("a number")
-    };
-    let (ghz, cycles, milliseconds) =
-        (number(", ", " GHz"), number(", ", " cycles a pixel"), number(": ", " ms,"));
-    assert_says("docs/speed.md", "takes # cycles a pixel, # ms on one", &[cycles, milliseconds]);
-    assert_says("docs/speed.md", "At # GHz the target of 0.25 is", &[ghz]);
-}
-
-/// `run.sh` keeps what it printed; the first run on a machine makes the file.
-#[test]
-fn ratios_on_the_page_are_those_of_the_peers() {
-    let kept = crate::root().join("crates/fast/benches/results/peers.txt");
-    if !kept.exists() {
-        eprintln!("skipped: crates/fast/benches/peers/run.sh has kept nothing yet");
-        return;
-    }
-    let printed = result("peers");
-    let lines: Vec<&str> = printed.lines().filter(|line| line.contains(", ratio ")).collect();
-    let page = table(&read("docs/speed.md"), "Beside other programs");
-    assert_eq!(page.len(), lines.len());
-    for (row, line) in page.iter().zip(lines) {
-        let (_, ratio) = line.split_once(", ratio ").expect("a ratio");
-        let is_part = |c: char| !c.is_ascii_digit() && c != '.';
-        let numbers = |text: &str| -> Vec<String> {
-            let parts = text.split(is_part).map(|part| part.trim_matches('.'));
-            parts.filter(|part| !part.is_empty()).map(str::to_owned).collect()
-        };
-        let (shown, kept) = (numbers(&row[4]), numbers(ratio));
-        assert_eq!(shown.len(), 3, "{row:?}");
-        for (shown, kept) in shown.iter().zip(&kept) {
-            let kept = kept.parse().expect("a number");
-            assert!(is_rounded(shown, kept), "{shown} is not {kept}: {line}");
-        }
-    }
 }

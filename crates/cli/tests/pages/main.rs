@@ -5,7 +5,9 @@ mod commands;
 mod computed;
 mod links;
 mod markdown;
+mod measured;
 mod numbers;
+mod release;
 #[path = "../support/mod.rs"]
 mod support;
 mod words;

@@ -29,7 +29,7 @@ fn numbers_of_the_readme_are_in_the_evidence() {
 }
 
 /// The rows of a CSV file, by the names of its columns.
-fn csv(path: &str) -> Vec<BTreeMap<String, String>> {
+pub fn csv(path: &str) -> Vec<BTreeMap<String, String>> {
     let text = read(path);
     let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned));
     let heads: Vec<_> = lines.next().expect("a line of names").collect();
@@ -41,7 +41,8 @@ pub fn is_rounded(number: &str, value: f64) -> bool {
     let number = number.replace(',', "");
     let (digits, power) = number.split_once('e').unwrap_or((&number, "0"));
     let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let trailing = digits.len() - digits.trim_end_matches('0').len();
+    let round = digits.trim_end_matches('0').len();
+    let trailing = if round == 0 { 0 } else { digits.len() - round };
     let last = if decimals > 0 { -(decimals as i32) } else { trailing as i32 };
     let last = last + power.parse::<i32>().expect("a power of ten");
     let shown: f64 = number.parse().expect("a number");
@@ -49,7 +50,7 @@ pub fn is_rounded(number: &str, value: f64) -> bool {
 }
 
 /// Asserts that `text` starts with the numbers `values`, each rounded to the digits that it shows.
-fn assert_rounded(text: &str, values: &[f64]) {
+pub fn assert_rounded(text: &str, values: &[f64]) {
     let text = text.replace(',', "");
     let is_part = |c: char| !c.is_ascii_digit() && c != '.';
     let found: Vec<_> = text.split(is_part).filter(|number| !number.is_empty()).collect();
@@ -64,51 +65,4 @@ pub fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
     let lines = section.unwrap_or_else(|| panic!("no section {heading}")).lines();
     let rows = lines.filter(|line| line.starts_with('|')).skip(2);
     rows.map(|row| row.trim_matches('|').split('|').map(str::to_owned).collect()).collect()
-}
-
-/// The errors on the page are those of `report --long`, which repeat to the last digit.
-#[test]
-fn errors_on_the_page_are_those_of_the_report() {
-    let page = read("docs/accuracy.md");
-    let data = csv("golden/report-speed.csv");
-    let number = |row: &BTreeMap<String, String>, name: &str| -> f64 {
-        row[name].parse().unwrap_or_else(|_| panic!("{name}: {}", row[name]))
-    };
-    let rows = table(&page, "How errors fall");
-    assert_eq!(rows.len(), 6);
-    let mut squares = 0.0;
-    for row in &rows {
-        let emitted: f64 = row[0].replace(',', "").parse().expect("a number");
-        let find = |name: &str| {
-            let mut all = data.iter();
-            all.find(|row| row["name"] == name && number(row, "emitted") == emitted).expect(name)
-        };
-        let percent = |name: &str, column: &str| 100.0 * number(find(name), column);
-        let total = ["rms_error", "low", "high"].map(|column| percent("total", column));
-        assert_rounded(&row[1], &total);
-        assert_rounded(&row[2], &[percent("total", "theory")]);
-        assert_rounded(&row[3], &[percent("each_surface", "rms_error")]);
-        assert_rounded(&row[4], &[percent("each_facet", "rms_error")]);
-        squares += emitted * number(find("total"), "rms_error").powi(2) / rows.len() as f64;
-    }
-    let largest = data.iter().rfind(|row| row["name"] == "total").expect("a row");
-    let of_theory = number(largest, "emitted") * number(largest, "theory").powi(2);
-    for (goal, unit) in [("1", 1.0), ("0.1", 1e6)] {
-        let line = page.lines().find(|line| line.starts_with(&format!("- To {goal} %: ")));
-        let (_, line) = line.expect("a goal").split_once(": ").expect("its photons");
-        let part: f64 = goal.parse().expect("a number");
-        let photons = |square: f64| square * (100.0 / part).powi(2) / unit;
-        assert_rounded(line, &[photons(squares)]);
-        let (_, theory) = line.split_once("theory ").expect("what theory says");
-        assert_rounded(theory, &[photons(of_theory)]);
-    }
-    let samplers = csv("golden/report-sampler.csv");
-    for row in table(&page, "Another sampler") {
-        let quantity = if row[0] == "stored" { row[0].clone() } else { format!("{}_hits", row[0]) };
-        let data = samplers.iter().rfind(|data| data["quantity"] == quantity).expect("a row");
-        assert_rounded(&row[1], &[100.0 * number(data, "chacha_rms")]);
-        assert_rounded(&row[2], &[100.0 * number(data, "sobol_rms")]);
-        let ratio = ["variance_ratio", "ratio_low", "ratio_high"].map(|name| number(data, name));
-        assert_rounded(&row[3], &ratio);
-    }
 }
