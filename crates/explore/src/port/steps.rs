@@ -121,6 +121,8 @@ pub const STEPS: [PortStep; 9] = [
             function: "trace_photon",
             lines: LitLines::Within(SCATTERING, SCATTERING, "return;"),
             values: &[
+                ("let hit_primitive", "hit_primitive"),
+                ("let hit_mesh_object", "hit_mesh_object"),
                 ("let diffuse_response", "diffuse_response"),
                 ("let probability_of_reflection", "probability_of_reflection"),
                 ("if rand() >=", "rand()"),
@@ -158,7 +160,10 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "diffuse_reflection_ray",
                 lines: LitLines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
-                values: &[("let normal", "normal")],
+                values: &[
+                    ("let normal", "normal"),
+                    ("let world_space_direction", "world_space_direction"),
+                ],
             },
             PortPart {
                 function: "tangent_frame",
@@ -185,7 +190,11 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "spawn_ray",
                 lines: LitLines::Body,
-                values: &[("let (start, offset)", "start"), ("let (start, offset)", "offset")],
+                values: &[
+                    ("let (start, offset)", "start"),
+                    ("let (start, offset)", "offset"),
+                    ("ray.start_error", "start_error"),
+                ],
             },
             PortPart {
                 function: "trace_photon",
