@@ -3,10 +3,13 @@
 mod browser;
 mod support;
 
-use compare::explain::{Hit, Story, explain};
+use browser::launch;
+use compare::explain::{Ending, Hit, Story, explain};
+use photon_mapping::assignment8;
 use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use serde_json::{Value, json};
-use support::{handout, open_handout};
+use support::{Traced, handout, open_handout, write_page};
+use variants::run::Run;
 
 /// Each step of the photon that is open: its bounce, name, values beside the code, other values,
 /// the lines lit, and the parts of lines that do not run.
@@ -130,5 +133,26 @@ fn the_panel_has_the_numbers_of_explain() {
             check_story(&explain(&run.run, *photon).expect("emitted"), steps);
         }
     }
+    browser.has_been_quiet();
+}
+
+#[test]
+fn a_path_that_ends_at_the_bounce_limit_lights_its_return() {
+    let Some(browser) = launch(true) else { return };
+    let mut run = Run::handout(assignment8::SEED, 2000);
+    run.renderer.max_photon_bounces = 1;
+    let run = Traced::of(run, None);
+    browser.open(&write_page("limit", &run.exploration(None).page()), "");
+    let mut limits = 0;
+    for record in &run.records {
+        let steps = browser.run(&format!(
+            "(() => {{ page.open({}, 0, 'emission'); return {ALL_STEPS}; }})()",
+            record.photon
+        ));
+        let story = explain(&run.run, record.photon.into()).expect("emitted");
+        check_story(&story, &steps);
+        limits += usize::from(story.ending == Ending::BounceLimit);
+    }
+    assert!(limits > 10, "{limits}");
     browser.has_been_quiet();
 }
