@@ -56,15 +56,14 @@ pub const FUNCTIONS: [(&str, &str); 6] = [
     ("spawn_ray", "src/scene/numerics.rs"),
 ];
 
-/// How each `if` of these functions starts, and the name under which a story tells whether it
-/// holds.
+/// Each `if` of these functions, and the name under which a story tells whether it holds.
 pub const CONDITIONS: [(&str, &str); 6] = [
-    ("if length_squared <= 1.0", "in_sphere"),
-    ("if remaining_bounces < 0", "bounce_limit"),
-    ("if !self.stored_scene.trace(", "no_hit"),
-    ("if path.len() > 1", "has_bounced"),
-    ("if rand() >= probability_of_reflection", "absorbed"),
-    ("if is_parallel", "is_parallel"),
+    ("if length_squared <= 1.0 && length_squared > 0.0 {", "in_sphere"),
+    ("if remaining_bounces < 0 {", "bounce_limit"),
+    ("if !self.stored_scene.trace(photon_ray, Some(&mut state)) {", "no_hit"),
+    ("if path.len() > 1 {", "has_bounced"),
+    ("if rand() >= probability_of_reflection {", "absorbed"),
+    ("if is_parallel {", "is_parallel"),
 ];
 
 pub const STEPS: [PortStep; 9] = [
