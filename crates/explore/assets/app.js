@@ -185,32 +185,33 @@ class Page {
       this.view.draw();
     };
     const openNumber = () => this.open(Number($("photon").value), 0, "emission");
-    const togglePlay = () => this.play(this.timer === null);
-    on("home", "click", home);
-    on("center", "click", center);
+    const actions = {
+      home, center,
+      back: () => this.go(this.at - 1),
+      forward: () => this.go(this.at + 1),
+      play: () => this.play(this.timer === null),
+      previous: () => this.skip(-1),
+      next: () => this.skip(1),
+      divergence: () => this.openDivergence(),
+    };
+    for (const [id, action] of Object.entries(actions)) on(id, "click", action);
     for (const id of ["colors", "from", "to"]) on(id, "input", () => this.showDots());
     on("walls", "input", () => set("wallAlpha", $("walls").checked ? 1 : 0.16));
     on("dots", "input", () => set("dotScale", Number($("dots").value)));
-    on("previous", "click", () => this.skip(-1));
-    on("next", "click", () => this.skip(1));
     on("photon", "change", openNumber);
     on("choose", "submit", (event) => {
       event.preventDefault();
       openNumber();
     });
-    on("back", "click", () => this.go(this.at - 1));
-    on("forward", "click", () => this.go(this.at + 1));
-    on("play", "click", togglePlay);
     on("slider", "input", () => this.go(Number($("slider").value)));
-    on("divergence", "click", () => this.openDivergence());
     const keys = {
-      ArrowLeft: () => this.go(this.at - 1),
-      ArrowRight: () => this.go(this.at + 1),
+      ArrowLeft: actions.back,
+      ArrowRight: actions.forward,
       ArrowUp: () => this.changeBounce(-1),
       ArrowDown: () => this.changeBounce(1),
-      " ": togglePlay,
-      n: () => this.skip(1),
-      p: () => this.skip(-1),
+      " ": actions.play,
+      n: actions.next,
+      p: actions.previous,
       h: home,
       c: center,
       "+": () => this.mouse?.zoom(0.85),

@@ -29,7 +29,8 @@ const countsMethods = {
     const { run } = this;
     if (run.comparison)
       $("cells").textContent =
-        `Stored by the reference, in orange by the ${run.comparison.kind}, then expected`;
+        `Stored by the reference, in orange by the ${run.comparison.kind}, then expected, ` +
+        "then the reference's difference in standard deviations.";
     const heading = (name, scope) => make("th", { scope, textContent: name });
     const top = ["surface", ...run.columns].map((name) => heading(name, "col"));
     const row = ({ name, cells }, index) => {

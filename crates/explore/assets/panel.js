@@ -196,9 +196,7 @@ function showCode(source, { parts }, { holds, values }) {
     return make("figure", {}, caption, make("ol", {}, ...rows));
   });
   $("code").replaceChildren(...figures);
-  // The line before those lit is the first in sight.
-  for (const list of $("code").querySelectorAll("ol")) {
-    const before = list.querySelector(".lit")?.previousSibling;
-    list.scrollTop = before ? before.offsetTop : 0;
-  }
+  // The first line that runs is the first in sight.
+  for (const list of $("code").querySelectorAll("ol"))
+    list.scrollTop = list.querySelector(".lit")?.offsetTop ?? 0;
 }

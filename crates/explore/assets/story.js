@@ -6,7 +6,8 @@ const ENDINGS = {
   bounce_limit: "bounced as often as it may",
 };
 const about = (x) => `about ${Number(x.toPrecision(4))}`;
-const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
+const short = (x) => Number(x.toPrecision(6));
+const near = (x) => `≈ ${short(x)}`;
 const degrees = (cosine) => `${((Math.acos(clamp(cosine, -1, 1)) * 180) / Math.PI).toFixed(1)}°`;
 
 /** The steps of `story` in order: {bounce, name, holds, say, values, more, lines, labels,
@@ -113,6 +114,8 @@ function stepsOfHit(run, story, hit) {
             "so the photon is absorbed here and its path ends.",
       ],
       values: {
+        hit_primitive: `a triangle of face ${facet}`,
+        hit_mesh_object: surface,
         diffuse_response: vectorText(diffuse),
         probability_of_reflection: digits(survival),
         "rand()": digits(roulette),
@@ -190,6 +193,7 @@ function frameStep({ position, face, direction, u1 }, normalLine, size) {
     values: {
       normal: vectorText(normal), is_parallel: String(!isX), axis: axisName,
       tangent: vectorText(tangent), bitangent: vectorText(bitangent),
+      world_space_direction: `≈ (${direction.map(short).join(", ")})`,
     },
     lines: [tLine, bLine, normalLine, rayLine(position, direction, size)],
     labels: [["t", tLine.b], ["b", bLine.b], ["n", normalLine.b]],
@@ -209,7 +213,9 @@ function rayStep({ maxBounces, offset }, hit, normalLine, size) {
     ],
     values: {
       world_space_direction: vectorText(direction),
-      ...(offset !== null ? { start: vectorText(start), offset: digits(offset) } : {}),
+      ...(offset !== null ? {
+        start: vectorText(start), offset: digits(offset), start_error: digits(round(offset / 2)),
+      } : {}),
       remaining_bounces: String(maxBounces - bounce - 1),
     },
     lines: [rayLine(position, direction, size), normalLine],

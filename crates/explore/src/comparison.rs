@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use compare::alignment::{Pairing, align, with_bounces};
 use compare::explain::{Hit, explain, vector};
-use compare::position_index::is_near;
 use compare::report::{Outcome, Report, compare, scene_size};
 use glam::Vec3;
 use photon_list::reader::PhotonList;
@@ -18,8 +17,6 @@ use super::misreading::ShownMisreading;
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
 /// default of `compare`.
 const TOLERANCE: f32 = 1e-4;
-/// A page shows at most so many records that only the other list has, evenly thinned.
-const MOST_EXTRA: usize = 500_000;
 
 /// [`TOLERANCE`] in the scene of `run`, in world units.
 pub(crate) fn tolerance(run: &Run) -> f32 {
@@ -53,10 +50,10 @@ pub enum Other {
 pub struct ListComparison {
     other: Other,
     report: Report,
-    pairings: Vec<Pairing>,
-    reference: PhotonList,
-    submission: PhotonList,
-    tolerance: f32,
+    pub(crate) pairings: Vec<Pairing>,
+    pub(crate) reference: PhotonList,
+    pub(crate) submission: PhotonList,
+    pub(crate) tolerance: f32,
     step: Option<PartingStep>,
 }
 
@@ -70,22 +67,6 @@ struct PartingStep {
     sides: Vec<[String; 3]>,
     /// Where the other list has its record, if it has one.
     other: Option<[f32; 3]>,
-}
-
-/// The overlay as the page's columns.
-#[derive(Debug, Default)]
-pub(crate) struct Overlay {
-    /// For each stored photon of the page: 0 matched, 1 missing, 2 moved.
-    pub kinds: Vec<u8>,
-    /// For each record that moved: the stored photon that it should be, and where it is.
-    pub moved_index: Vec<u32>,
-    pub moved: Vec<[f32; 3]>,
-    /// The records that only the other list has, with the largest number for what it does not
-    /// tell.
-    pub extra: Vec<[f32; 3]>,
-    pub extra_photon: Vec<u32>,
-    pub extra_bounce: Vec<u16>,
-    pub extra_surface: Vec<u16>,
 }
 
 impl ListComparison {
@@ -164,16 +145,16 @@ impl ListComparison {
             Section::HemisphereRayTransformation if starts_elsewhere => (before, "ray"),
             Section::HemisphereRayTransformation => (before, "frame"),
         };
-        let mut sides = vec![[
-            "at this bounce".to_owned(),
-            divergence.reference.clone(),
-            divergence.submission.clone(),
-        ]];
+        let told = [&divergence.reference, &divergence.submission];
         let (reference, submission) = self.records_of(photon, recorded);
         // Before the photon has scattered, its records tell no direction.
         let has_scattered = !["emission", "stored"].contains(&name);
         let before = story.hits.get(before).filter(|_| recorded > 0 && has_scattered);
-        sides.extend(values(before, reference, submission));
+        let [ours, theirs] = told.map(String::clone);
+        let mut sides = vec![[format!("bounce {recorded}"), ours, theirs]];
+        // What was told already is not told again.
+        let is_new = |row: &[String; 3]| row[1..].iter().zip(told).any(|(a, b)| !b.contains(a));
+        sides.extend(values(before, reference, submission).into_iter().filter(is_new));
         let other = submission.map(|record| record.position).filter(|place| place.is_finite());
         Some(PartingStep {
             photon,
@@ -206,73 +187,10 @@ impl ListComparison {
         }
     }
 
-    /// The overlay; `places` has the place of each record of the reference among the page's
-    /// photons.
-    pub(crate) fn overlay(&self, places: &[Option<u32>]) -> Overlay {
-        let shown = places.iter().flatten().count();
-        let mut overlay = Overlay { kinds: vec![0; shown], ..Overlay::default() };
-        let extra = || self.pairings.iter().filter(|pairing| matches!(pairing, Pairing::Extra(_)));
-        let every = extra().count() / MOST_EXTRA + 1;
-        let mut number_of_extra = 0;
-        for pairing in &self.pairings {
-            match *pairing {
-                Pairing::Missing(i) => {
-                    if let Some(place) = places[i] {
-                        overlay.kinds[place as usize] = 1;
-                    }
-                }
-                Pairing::Both(i, j) => {
-                    let (a, b) = (&self.reference.records[i], &self.submission.records[j]);
-                    let Some(place) = places[i] else { continue };
-                    if !is_near(a.position, b.position, self.tolerance) {
-                        overlay.kinds[place as usize] = 2;
-                        if b.position.is_finite() {
-                            overlay.moved_index.push(place);
-                            overlay.moved.push(b.position.to_array());
-                        }
-                    }
-                }
-                Pairing::Extra(j) => {
-                    number_of_extra += 1;
-                    let record = &self.submission.records[j];
-                    if number_of_extra % every == 0 && record.position.is_finite() {
-                        overlay.extra.push(record.position.to_array());
-                        overlay.extra_photon.push(record.photon);
-                        overlay.extra_bounce.push(record.bounce);
-                        overlay.extra_surface.push(record.surface);
-                    }
-                }
-            }
-        }
-        overlay
-    }
-
     /// Whether the other list draws other random numbers, so that its photons are others.
     fn has_other_numbers(&self) -> bool {
         let notes = self.report.note.as_deref().unwrap_or_default();
         self.misreading().is_none() && notes.contains("the random numbers ")
-    }
-
-    /// How many photons the other list stores, surface by surface and last in total: at the bounces
-    /// 1, 2, 3, above, and at all. Nothing where the list does not tell it.
-    fn table(&self, surfaces: usize) -> Vec<[Option<u64>; 5]> {
-        let PhotonList { columns, records } = &self.submission;
-        let mut table = vec![[columns.surface.then_some(0); 5]; surfaces];
-        table.push([Some(0); 5]);
-        if !columns.bounce {
-            table.iter_mut().for_each(|row| row[..4].fill(None));
-        }
-        for record in records {
-            // Of a surface or a bounce that the reference does not have, only the sums tell.
-            let of_bounce = usize::from(record.bounce).checked_sub(1).map(|at| at.min(3));
-            let of_surface = usize::from(record.surface).min(surfaces);
-            for row in BTreeSet::from([of_surface, surfaces]) {
-                for column in of_bounce.into_iter().chain([4]) {
-                    table[row][column] = table[row][column].map(|count| count + 1);
-                }
-            }
-        }
-        table
     }
 
     /// What the page shows above the box.

@@ -12,9 +12,11 @@
 
 pub mod comparison;
 pub mod misreading;
+mod overlay;
 mod pack;
 mod page;
 mod paths;
+mod scene;
 
 use image::RgbImage;
 use oracle::summary::SurfaceSummary;

@@ -75,6 +75,11 @@ fn every_misreading_opens_where_it_differs() {
             _ => same,
         };
         assert_eq!(browser.run("page.steps[page.at].bounce"), expected, "{name}: photon {photon}");
+        // The code is in sight under the verdict and both values, and so is the box between lines.
+        let code = "document.querySelector('#code .lit').getBoundingClientRect().top";
+        assert!(float(&browser.run(code)) < 780.0, "{name}: {}", browser.run(code));
+        let lines = float(&browser.run("page.view.layers.moved?.count ?? 0"));
+        assert!(lines < 200.0, "{name}: {lines}");
         // What is counted is what is drawn.
         let kinds = browser
             .run("[0, 1, 2, 3].map((kind) => page.kinds.reduce((n, k) => n + (k === kind), 0))");
@@ -119,6 +124,18 @@ fn a_submission_shows_where_it_parts() {
     // A dot of a list without numbers is shown, too, and the one that moved counts once.
     let shown = browser.text("document.getElementById('shown').textContent");
     assert_eq!(shown.replace(',', ""), format!("{} photons shown.", all + 1));
+    // All that moved in a cell have their line as long as the cell is lit.
+    let moved = &reference.records[10];
+    let [row, column] = [moved.surface + 1, moved.bounce.min(4) + 1];
+    browser.press("n");
+    browser.run(&format!(
+        "document.querySelector('#table tbody tr:nth-child({row}) td:nth-child({column}) \
+         button').focus()"
+    ));
+    assert_eq!(browser.run("page.view.layers.moved.count"), 1);
+    assert_eq!(browser.run("page.movedLines()[0].alpha"), 0.7);
+    browser.run("document.activeElement.blur()");
+    assert_eq!(browser.run("page.movedLines()[0].alpha"), 1);
     // Elsewhere, and back by the button.
     browser.press("n");
     browser.click_on("#divergence");

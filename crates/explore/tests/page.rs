@@ -7,24 +7,11 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use browser::launch;
-use compare::explain::{Hit, Story, explain};
 use explore::Exploration;
 use photon_mapping::assignment8;
-use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
-use serde_json::{Value, json};
+use serde_json::json;
 use support::{Traced, float, handout, open_handout, write_page};
-
-/// Each step of the photon that is open: its bounce, name, values beside the code, other values,
-/// the lines lit, and the parts of lines that do not run.
-const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
-    link: page.link, say: document.getElementById('say').textContent,
-    values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => \
-        [v.dataset.name, v.textContent])),
-    more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, \
-        t.nextSibling.textContent])),
-    lit: [...document.querySelectorAll('#code .lit code')].map((c) => c.textContent.trim()),
-    skipped: [...document.querySelectorAll('#code span.skipped')].map((c) => c.textContent) }; })";
 
 /// The pixels of all photons that the handout's camera sees.
 fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
@@ -129,120 +116,6 @@ fn clicking_a_dot_opens_its_photon() {
     browser.has_been_quiet();
 }
 
-/// Whether `step` lights the line `code`.
-fn is_lit(step: &Value, code: &str) -> bool {
-    step["lit"].as_array().expect("a list").iter().any(|line| line == code)
-}
-
-fn vector(xyz: &[f32; 3]) -> String {
-    compare::explain::vector(xyz)
-}
-
-/// Checks all that the panel shows at the hit `hit`, whose steps are `steps`.
-fn check_hit(hit: &Hit, steps: &[&Value]) {
-    let step = |name: &str| -> Value {
-        let found = steps.iter().find(|step| {
-            step["link"].as_str().is_some_and(|link| link.ends_with(&format!("step={name}")))
-        });
-        (*found.unwrap_or_else(|| panic!("no step {name} at bounce {}", hit.bounce))).clone()
-    };
-    let show = |names: &[&str]| names.iter().map(|name| step(name)).collect::<Vec<_>>();
-    let [at_hit, stored, roulette] =
-        show(&["hit", "stored", "roulette"]).try_into().expect("three");
-    assert_eq!(at_hit["more"]["t"], hit.t.to_string());
-    assert_eq!(at_hit["values"]["intersection_point"], vector(&hit.position));
-    assert_eq!(at_hit["more"]["normal"], vector(&hit.normal));
-    let says =
-        |step: &Value, words: &str| step["say"].as_str().is_some_and(|say| say.contains(words));
-    assert!(says(&at_hit, &format!("The ray meets {}, face {},", hit.surface, hit.facet)));
-    assert!(says(&stored, if hit.stored { "It is stored," } else { "It is not stored." }));
-    let pushed = if hit.stored { "runs" } else { "skipped" };
-    assert_eq!(stored["values"]["photon_map.push()"], pushed);
-    assert_eq!(stored["values"]["path.len()"], (hit.bounce + 1).to_string());
-    assert_eq!(roulette["values"]["rand()"], hit.roulette.to_string());
-    assert_eq!(roulette["values"]["probability_of_reflection"], hit.survival.to_string());
-    assert!(is_lit(&at_hit, "if remaining_bounces < 0 {"));
-    assert!(is_lit(&stored, "if path.len() > 1 {"));
-    assert_eq!(is_lit(&stored, "photon_map.push(Photon {"), hit.stored);
-    assert!(is_lit(&stored, "path.push(PathVertex::Surface(state));"));
-    assert_eq!(is_lit(&roulette, "return;"), !hit.scattered);
-    assert!(says(&roulette, if hit.scattered { "the photon scatters" } else { "is absorbed" }));
-    let scattering = (hit.u1, hit.u2, hit.tangent, hit.bitangent, hit.direction);
-    let (Some(u1), Some(u2), Some(tangent), Some(bitangent), Some(direction)) = scattering else {
-        assert!(steps.len() == 3 || hit.bounce == 0 && steps.len() == 4);
-        return;
-    };
-    let [hemisphere, frame, ray] = show(&["hemisphere", "frame", "ray"]).try_into().expect("three");
-    assert_eq!(hemisphere["values"]["u1"], u1.to_string());
-    assert_eq!(hemisphere["values"]["u2"], u2.to_string());
-    assert_eq!(frame["values"]["tangent"], vector(&tangent));
-    assert_eq!(frame["values"]["bitangent"], vector(&bitangent));
-    assert_eq!(frame["values"]["normal"], vector(&hit.normal));
-    let is_parallel = hit.normal[0].abs() > CLOSE_TO_PARALLEL;
-    let not_taken = if is_parallel { "{ Vec3::X }" } else { "{ Vec3::Y }" };
-    assert_eq!(frame["skipped"], json!([not_taken]));
-    assert_eq!(ray["values"]["world_space_direction"], vector(&direction));
-}
-
-fn check_story(story: &Story, steps: &Value) {
-    let steps = steps.as_array().expect("a list");
-    let (taken, tries) = (story.emission.tries.last().expect("one"), &story.emission.tries);
-    let emission = &steps[0];
-    for (name, component) in ["x", "y", "z"].into_iter().zip(taken) {
-        assert_eq!(emission["values"][name], component.to_string());
-    }
-    assert_eq!(emission["values"]["direction"], vector(&story.emission.direction));
-    for (i, xyz) in tries.iter().enumerate() {
-        let told = emission["more"][format!("try {}", i + 1)].as_str().expect("a try");
-        let [x, y, z] = *xyz;
-        assert!(
-            told.starts_with(&format!(
-                "{}, x² + y² + z² = {}: ",
-                vector(xyz),
-                x * x + y * y + z * z
-            )),
-            "{told}"
-        );
-    }
-    let times = if tries.len() == 1 { "once".into() } else { format!("{} times", tries.len()) };
-    assert_eq!(emission["values"]["loop"], format!("runs {times}"));
-    // Every path ends by one `return`, at its last step.
-    let returns = steps.iter().map(|step| is_lit(step, "return;"));
-    let at: Vec<_> = returns.enumerate().filter(|(_, is_lit)| *is_lit).map(|(at, _)| at).collect();
-    assert_eq!(at, [steps.len() - 1], "photon {}", story.photon);
-    for hit in &story.hits {
-        let of_bounce = |step: &&Value| {
-            step["link"]
-                .as_str()
-                .is_some_and(|link| link.contains(&format!("&bounce={}&", hit.bounce)))
-        };
-        check_hit(hit, &steps.iter().filter(of_bounce).collect::<Vec<_>>());
-    }
-}
-
-#[test]
-fn the_panel_has_the_numbers_of_explain() {
-    let Some(browser) = open_handout("#photon=73") else { return };
-    let run = &handout().0;
-    // Nothing needs to be laid out to be read.
-    browser.run("document.querySelector('main').style.display = 'none'");
-    let mut photons: Vec<u64> = run.records.iter().map(|record| u64::from(record.photon)).collect();
-    photons.dedup();
-    // Photon 73, and 1,000 spread over the run.
-    let mut some = vec![73];
-    some.extend(photons.iter().step_by(photons.len() / 1000));
-    for some in some.chunks(50) {
-        let list = json!(some);
-        let steps = browser.run(&format!(
-            "{list}.map((photon) => {{ page.open(photon, 0, 'emission'); return {ALL_STEPS}; }})"
-        ));
-        for (photon, steps) in some.iter().zip(steps.as_array().expect("a list")) {
-            check_story(&explain(&run.run, *photon).expect("emitted"), steps);
-        }
-    }
-    browser.has_been_quiet();
-}
-
 #[test]
 fn a_link_restores_its_step() {
     let Some(browser) = open_handout("#photon=73&bounce=1&step=roulette") else { return };
@@ -269,6 +142,10 @@ fn a_link_restores_its_step() {
         browser
             .text("document.getElementById('no-story').textContent")
             .contains("explore --photon 74")
+    );
+    assert_eq!(
+        browser.run("[...document.querySelectorAll('#no-story .whole')].map((n) => n.textContent)"),
+        json!(["photon-mapping explore", "--photon"])
     );
     browser.run("location.hash = '#photon=99999999999'");
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");

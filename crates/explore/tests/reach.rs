@@ -86,8 +86,8 @@ fn it_works_on_a_phone() {
     browser.run("document.querySelector('.filters').open = true");
     // A box to tick is as large as its label.
     let smallest = "Math.min(...[...document.querySelectorAll('button, input, select, summary')]\
-         .filter((n) => n.offsetParent).map((n) => n.type === 'checkbox' ? n.parentNode : n).map((n) => \
-         n.getBoundingClientRect()).map((r) => Math.min(r.width, r.height)))";
+         .filter((n) => n.offsetParent).map((n) => n.type === 'checkbox' ? n.parentNode : n)\
+         .map((n) => n.getBoundingClientRect()).map((r) => Math.min(r.width, r.height)))";
     assert!(float(&browser.run(smallest)) >= 40.0, "{}", browser.run(smallest));
     let place = browser.run(
         "(() => { const b = [...document.querySelectorAll('#names button')].find((b) => \

@@ -56,15 +56,14 @@ pub const FUNCTIONS: [(&str, &str); 6] = [
     ("spawn_ray", "src/scene/numerics.rs"),
 ];
 
-/// How each `if` of these functions starts, and the name under which a story tells whether it
-/// holds.
+/// Each `if` of these functions, and the name under which a story tells whether it holds.
 pub const CONDITIONS: [(&str, &str); 6] = [
-    ("if length_squared <= 1.0", "in_sphere"),
-    ("if remaining_bounces < 0", "bounce_limit"),
-    ("if !self.stored_scene.trace(", "no_hit"),
-    ("if path.len() > 1", "has_bounced"),
-    ("if rand() >= probability_of_reflection", "absorbed"),
-    ("if is_parallel", "is_parallel"),
+    ("if length_squared <= 1.0 && length_squared > 0.0 {", "in_sphere"),
+    ("if remaining_bounces < 0 {", "bounce_limit"),
+    ("if !self.stored_scene.trace(photon_ray, Some(&mut state)) {", "no_hit"),
+    ("if path.len() > 1 {", "has_bounced"),
+    ("if rand() >= probability_of_reflection {", "absorbed"),
+    ("if is_parallel {", "is_parallel"),
 ];
 
 pub const STEPS: [PortStep; 9] = [
@@ -121,6 +120,8 @@ pub const STEPS: [PortStep; 9] = [
             function: "trace_photon",
             lines: LitLines::Within(SCATTERING, SCATTERING, "return;"),
             values: &[
+                ("let hit_primitive", "hit_primitive"),
+                ("let hit_mesh_object", "hit_mesh_object"),
                 ("let diffuse_response", "diffuse_response"),
                 ("let probability_of_reflection", "probability_of_reflection"),
                 ("if rand() >=", "rand()"),
@@ -158,7 +159,10 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "diffuse_reflection_ray",
                 lines: LitLines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
-                values: &[("let normal", "normal")],
+                values: &[
+                    ("let normal", "normal"),
+                    ("let world_space_direction", "world_space_direction"),
+                ],
             },
             PortPart {
                 function: "tangent_frame",
@@ -185,7 +189,11 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "spawn_ray",
                 lines: LitLines::Body,
-                values: &[("let (start, offset)", "start"), ("let (start, offset)", "offset")],
+                values: &[
+                    ("let (start, offset)", "start"),
+                    ("let (start, offset)", "offset"),
+                    ("ray.start_error", "start_error"),
+                ],
             },
             PortPart {
                 function: "trace_photon",

@@ -4,6 +4,8 @@
 //! for each of the protocol's messages. These tests need nine of them, and `serde_json` is here.
 #![allow(dead_code, reason = "no test uses all of it")]
 
+mod input;
+
 use std::cell::{Cell, RefCell};
 use std::io::{BufRead, BufReader, Cursor, Write};
 use std::path::Path;
@@ -180,96 +182,6 @@ impl Browser {
     pub fn media(&self, name: &str, value: &str) {
         let features = json!({ "features": [{ "name": name, "value": value }] });
         self.call("Emulation.setEmulatedMedia", features);
-    }
-
-    /// Clicks at the CSS pixel (`x`, `y`) of the window.
-    pub fn click(&self, x: f64, y: f64) {
-        self.nth_click(x, y, 1);
-    }
-
-    /// Clicks twice at the CSS pixel (`x`, `y`) of the window.
-    pub fn double_click(&self, x: f64, y: f64) {
-        self.nth_click(x, y, 1);
-        self.nth_click(x, y, 2);
-    }
-
-    /// The click that is the `count`th in a row.
-    fn nth_click(&self, x: f64, y: f64, count: u32) {
-        for kind in ["mouseMoved", "mousePressed", "mouseReleased"] {
-            let event =
-                json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": count });
-            self.call("Input.dispatchMouseEvent", event);
-        }
-    }
-
-    /// Drags from one CSS pixel of the window to another.
-    pub fn drag(&self, from: [f64; 2], to: [f64; 2]) {
-        for (kind, [x, y]) in [("mousePressed", from), ("mouseMoved", to), ("mouseReleased", to)] {
-            let event = json!({
-                "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1,
-            });
-            self.call("Input.dispatchMouseEvent", event);
-        }
-    }
-
-    /// Turns the wheel by `delta` pixels at the CSS pixel (`x`, `y`) of the window.
-    pub fn wheel(&self, x: f64, y: f64, delta: f64) {
-        let event = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": delta });
-        self.call("Input.dispatchMouseEvent", event);
-    }
-
-    /// Clicks the middle of the element `selector`.
-    pub fn click_on(&self, selector: &str) {
-        let place = self.run(&format!(
-            "(() => {{ const node = document.querySelector({selector:?}); node.scrollIntoView({{ \
-             block: 'center' }}); const r = node.getBoundingClientRect(); return [r.x + r.width / \
-             2, r.y + r.height / 2]; }})()"
-        ));
-        self.click(place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"));
-    }
-
-    /// Touches the CSS pixel (`x`, `y`) of the window.
-    pub fn tap(&self, x: f64, y: f64) {
-        let points = json!([{ "x": x, "y": y }]);
-        self.call(
-            "Input.dispatchTouchEvent",
-            json!({ "type": "touchStart", "touchPoints": points }),
-        );
-        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
-    }
-
-    /// Moves two fingers apart, or together: around the CSS pixel (`x`, `y`) of the window, from a
-    /// distance of `from` pixels to one of `to`.
-    pub fn pinch(&self, x: f64, y: f64, from: f64, to: f64) {
-        for (kind, apart) in [("touchStart", from), ("touchMove", to)] {
-            let finger =
-                |id: u32, side: f64| json!({ "id": id, "x": x + side * apart / 2.0, "y": y });
-            let points = json!([finger(0, -1.0), finger(1, 1.0)]);
-            self.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
-        }
-        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
-    }
-
-    /// Presses the key `key`, as `ArrowRight` or `n`.
-    pub fn press(&self, key: &str) {
-        let code = match key {
-            "ArrowLeft" => 37,
-            "ArrowUp" => 38,
-            "ArrowRight" => 39,
-            "ArrowDown" => 40,
-            "Enter" => 13,
-            "Tab" => 9,
-            _ => key.to_uppercase().bytes().next().map_or(0, u32::from),
-        };
-        let mut event = json!({ "type": "keyDown", "key": key, "windowsVirtualKeyCode": code });
-        match key {
-            "Enter" => event["text"] = json!("\r"),
-            _ if key.len() == 1 => event["text"] = json!(key),
-            _ => {}
-        }
-        self.call("Input.dispatchKeyEvent", event);
-        let event = json!({ "type": "keyUp", "key": key, "windowsVirtualKeyCode": code });
-        self.call("Input.dispatchKeyEvent", event);
     }
 
     /// A picture of the window.
