@@ -194,16 +194,16 @@ mod tests {
     }
 
     /// A point on a wide facet has no more digits than its width leaves, also beside a detail that
-    /// stands on it. Held against f64, photon by photon, the share of photons with another path is less
-    /// than the last place of the width, in units of the handout's scene.
+    /// stands on it. Held against f64, photon by photon, the share of photons with another path is
+    /// less than the last place of the width, in units of the handout's scene.
     #[test]
     fn small_detail_on_a_wide_plain() {
         let count = 300_000;
         for extent in [20.0, 200.0, 2e3, 2e4] {
             let run = handout_on_a_plain(extent, DVec3::ZERO, 34, count);
             let scene = run.scene();
-            // In f64 the scene is traced at the size of the handout's, where the framework's offset is
-            // right.
+            // In f64 the scene is traced at the size of the handout's, where the framework's offset
+            // is right.
             let unit = run.placement.length_to_world(1.0);
             let triangles = scene.triangles().iter().map(|triangle| Triangle {
                 vertices: triangle.vertices.map(|vertex| vertex * unit),
