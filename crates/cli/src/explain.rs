@@ -45,8 +45,8 @@ pub fn run(arguments: &ExplainArgs) -> Result<u8, CliError> {
     if let Some(stored) = arguments.until_stored {
         photon = first_that_stores(&run, photon, usize::from(stored)).ok_or_else(|| {
             CliError::Argument(format!(
-                "--until-stored {stored}: expected a photon from {photon} to {} that stores \
-                     so many, found none",
+                "--until-stored {stored}: expected a photon from {photon} to {} that stores at \
+                     least {stored} photons, found none",
                 emitted - 1
             ))
         })?;

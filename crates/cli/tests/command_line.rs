@@ -405,26 +405,6 @@ fn full_disk() {
     }
 }
 
-#[cfg(unix)]
-#[test]
-fn interrupt_leaves_no_half_file() {
-    let folder = folder();
-    let child = program(&folder)
-        .args(["--photons", "4000000000", "--size", "8x6"])
-        .stdout(Stdio::null())
-        .spawn()
-        .unwrap();
-    let out = folder.path().join("out");
-    while !out.exists() || files(&out).len() < 2 {
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    let id = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    assert!(files(&out).is_empty());
-}
-
 #[test]
 fn sobol_sampler_is_a_labeled_extra() {
     let folder = folder();

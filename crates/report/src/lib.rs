@@ -3,7 +3,7 @@
 //! Each section of the page has a file, which measures, writes its part of the page, and gives the
 //! numbers behind it as CSV. Errors are differences from [`oracle`], which traces no photon.
 
-pub mod both_precisions;
+mod both_precisions;
 mod convergence;
 mod csv;
 mod hits;
@@ -41,11 +41,11 @@ pub const FILES: [&str; 13] = [
 ];
 
 /// A part of the page, with its plots and data.
-pub struct PageSection {
+struct PageSection {
     /// Markdown, with its heading.
-    pub markdown: String,
+    markdown: String,
     /// Names from [`FILES`], and the contents.
-    pub files: Vec<(&'static str, String)>,
+    files: Vec<(&'static str, String)>,
 }
 
 /// Measures everything in `plan`, and gives the files of the report: names from [`FILES`] and

@@ -6,19 +6,19 @@ use super::rules::cases;
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The options that select this plan.
-    pub options: &'static str,
+    pub(crate) options: &'static str,
     /// Emitted photons of the runs of speed against error, ascending.
-    pub sizes: Vec<u64>,
+    pub(crate) sizes: Vec<u64>,
     /// Runs at each of these sizes.
-    pub seeds: u64,
+    pub(crate) seeds: u64,
     /// Photons traced in both precisions.
-    pub precision_photons: u64,
+    pub(crate) precision_photons: u64,
     /// Photons for each offset in each place.
-    pub offset_photons: u64,
+    pub(crate) offset_photons: u64,
     /// Runs with each sampler at each of its sizes.
-    pub sampler_seeds: u64,
+    pub(crate) sampler_seeds: u64,
     /// Emitted photons of the runs with both samplers, ascending powers of two.
-    pub sampler_sizes: Vec<u64>,
+    pub(crate) sampler_sizes: Vec<u64>,
 }
 
 impl Plan {
@@ -57,7 +57,7 @@ impl Plan {
 
     /// The seed of run `run` at size number `size`: no two runs share a photon, so that their
     /// errors are independent.
-    pub fn seed(size: usize, run: u64) -> u64 {
+    pub(crate) fn seed(size: usize, run: u64) -> u64 {
         1_000 * (size as u64 + 1) + run
     }
 
