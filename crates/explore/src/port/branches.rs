@@ -7,7 +7,7 @@ use super::steps::CONDITIONS;
 
 /// Code that runs only if a condition is `holds`.
 #[derive(Debug, PartialEq, Eq, Serialize)]
-pub struct Branch {
+pub struct Arm {
     /// The name under which a story tells whether the condition holds.
     pub condition: &'static str,
     pub holds: bool,
@@ -22,7 +22,7 @@ pub struct Branch {
 ///
 /// # Errors
 /// A line, and what was expected there.
-pub fn find(lines: &[String]) -> Result<Vec<Branch>, (usize, String)> {
+pub fn find(lines: &[String]) -> Result<Vec<Arm>, (usize, String)> {
     let mut branches = Vec::new();
     let is_code = |line: &&String| !line.trim_start().starts_with("//");
     for (at, line) in lines.iter().enumerate().filter(|(_, line)| is_code(line)) {
@@ -45,7 +45,7 @@ pub fn find(lines: &[String]) -> Result<Vec<Branch>, (usize, String)> {
             let no = no.split_once('}').ok_or_else(unknown)?.0;
             for (code, holds) in [(yes, true), (no, false)] {
                 let code = Some(format!("{{{code}}}"));
-                branches.push(Branch { condition, holds, lines: [at, at], code });
+                branches.push(Arm { condition, holds, lines: [at, at], code });
             }
             continue;
         }
@@ -56,10 +56,10 @@ pub fn find(lines: &[String]) -> Result<Vec<Branch>, (usize, String)> {
         if lines[end].trim() != "}" || !line.ends_with('{') {
             return Err(unknown());
         }
-        branches.push(Branch { condition, holds: true, lines: [at + 1, end], code: None });
+        branches.push(Arm { condition, holds: true, lines: [at + 1, end], code: None });
         if lines[end - 1].trim().starts_with("return") {
             let rest = [end + 1, lines.len() - 1];
-            branches.push(Branch { condition, holds: false, lines: rest, code: None });
+            branches.push(Arm { condition, holds: false, lines: rest, code: None });
         }
     }
     Ok(branches)

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use branches::Branch;
+use branches::Arm;
 use steps::{FUNCTIONS, LitLines, PortPart, PortStep, SECTIONS, STEPS};
 
 /// A function of the port as it stands in its file.
@@ -24,7 +24,7 @@ struct FoundFunction {
     first: usize,
     /// Its lines, without the indentation that all have.
     lines: Vec<String>,
-    branches: Vec<Branch>,
+    branches: Vec<Arm>,
 }
 
 /// A step with its lines.
