@@ -133,7 +133,8 @@ function stepsOfHit(run, story, hit) {
   return steps.map((step) => ({ bounce, holds, ...step }));
 }
 
-function hemisphereStep({ position, face: { normal, tangent, bitangent }, u1, u2 }, size) {
+function hemisphereStep({ position, direction, face, u1, u2 }, size) {
+  const { normal, tangent, bitangent } = face;
   const r = Math.sqrt(u1), theta = 2 * Math.PI * u2, up = Math.sqrt(1 - u1);
   const [x, y] = [r * Math.cos(theta), r * Math.sin(theta)];
   const world = ([x, y, z]) =>
@@ -155,6 +156,7 @@ function hemisphereStep({ position, face: { normal, tangent, bitangent }, u1, u2
     values: {
       u1: digits(u1), u2: digits(u2), r: digits(round(r)), theta: near(theta),
       x: near(x), y: near(y), z: digits(round(Math.sqrt(round(1 - u1)))),
+      "ray_direction()": vectorText(direction),
     },
     lines: [
       ...arc(0.8, (at) => [Math.cos(2 * at), Math.sin(2 * at), 0]),

@@ -68,6 +68,7 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     let [hemisphere, frame, ray] = show(&["hemisphere", "frame", "ray"]).try_into().expect("three");
     assert_eq!(hemisphere["values"]["u1"], u1.to_string());
     assert_eq!(hemisphere["values"]["u2"], u2.to_string());
+    assert_eq!(hemisphere["values"]["ray_direction()"], vector(&direction));
     assert_eq!(frame["values"]["tangent"], vector(&tangent));
     assert_eq!(frame["values"]["bitangent"], vector(&bitangent));
     assert_eq!(frame["values"]["normal"], vector(&hit.normal));

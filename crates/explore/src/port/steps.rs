@@ -136,7 +136,11 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "trace_photon",
                 lines: LitLines::Within(SCATTERING, "let (u1, u2)", "let diffuse_reflection_ray"),
-                values: &[("let (u1, u2)", "u1"), ("let (u1, u2)", "u2")],
+                values: &[
+                    ("let (u1, u2)", "u1"),
+                    ("let (u1, u2)", "u2"),
+                    ("let diffuse_reflection_ray", "ray_direction()"),
+                ],
             },
             PortPart {
                 function: "sample_hemisphere",
