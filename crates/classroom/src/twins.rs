@@ -10,17 +10,20 @@ const KEPT: usize = 1024;
 /// Fewer different cells say nothing, nor do fewer that two lists share.
 const FEWEST: usize = 20;
 const FEWEST_SHARED: usize = 10;
-/// The size of cells, which rounding to two or three digits leaves as they are. In large cells,
-/// long lists are all alike.
+/// The size of cells, which rounding to two, three or four digits leaves as they are. In larger
+/// cells, long lists are all alike.
 const LARGE_CELL: f32 = 1e-2;
 const SMALL_CELL: f32 = 1e-3;
+const TINY_CELL: f32 = 1e-4;
 /// Longer lists are compared in small cells alone.
 const MOST_IN_LARGE_CELLS: usize = 60_000;
 /// Of all cells that one of two lists has, this part is in both only if they have the same
 /// photons. Two runs of MOST_IN_LARGE_CELLS records share 0.32 of the large cells.
 const SAME: f64 = 0.45;
 /// Of the small cells of the shorter list, the other has this part only if it has part of its
-/// photons. Two runs of MOST_FOR_PART records share 0.03.
+/// photons. Two runs of MOST_FOR_PART records share 0.03. Of tiny cells, lists of any length do:
+/// where photons lie densest, one in a unit of area for each that is stored, two of 5,000,000
+/// records share 0.05.
 const PART: f64 = 0.2;
 const MOST_FOR_PART: usize = 300_000;
 
@@ -30,14 +33,15 @@ pub struct Fingerprint {
     records: usize,
     large: Vec<u64>,
     small: Vec<u64>,
+    tiny: Vec<u64>,
 }
 
 impl Fingerprint {
     /// That of `records`; none where they lie in too few places to tell.
     pub fn of(records: &[PhotonRecord]) -> Option<Self> {
-        let large = smallest(records, LARGE_CELL);
-        let small = smallest(records, SMALL_CELL);
-        (large.len() >= FEWEST).then_some(Self { records: records.len(), large, small })
+        let [large, small, tiny] =
+            [LARGE_CELL, SMALL_CELL, TINY_CELL].map(|size| smallest(records, size));
+        (large.len() >= FEWEST).then_some(Self { records: records.len(), large, small, tiny })
     }
 
     /// Whether the two have more in common than two runs.
@@ -46,6 +50,7 @@ impl Fingerprint {
         let small = shared(&self.small, &other.small);
         small.of_all >= SAME
             || longer <= MOST_FOR_PART && small.of_fewer >= PART
+            || shared(&self.tiny, &other.tiny).of_fewer >= PART
             || longer <= MOST_IN_LARGE_CELLS && shared(&self.large, &other.large).of_all >= SAME
     }
 }
@@ -149,7 +154,7 @@ mod tests {
 
     #[test]
     fn parts_of_others_photons_are_twins() {
-        for photons in [20_000, 1_000_000, 4_000_000] {
+        for photons in [20_000, 1_000_000, 8_000_000] {
             let (one, two) = (list(1, photons), list(2, photons));
             let tenth: Vec<_> = one.iter().copied().step_by(10).collect();
             let first = one[..one.len() / 10].to_vec();
@@ -176,7 +181,9 @@ mod tests {
                     assert!(!one.is_like(other), "{photons}");
                     // Nor are those of a large class, of which some pairs share more.
                     let small = shared(&one.small, &other.small);
-                    assert!(small.of_all.max(small.of_fewer) < PART / 4.0, "{photons}");
+                    let tiny = shared(&one.tiny, &other.tiny);
+                    let parts = [small.of_all, small.of_fewer, tiny.of_fewer];
+                    assert!(parts.iter().all(|part| *part < PART / 4.0), "{photons}");
                     let large = shared(&one.large, &other.large).of_all;
                     assert!(!in_large(one) || large < 0.8 * SAME, "{photons}: {large}");
                 }

@@ -24,6 +24,7 @@ mod report;
 mod run_args;
 mod run_summary;
 mod shell;
+mod threads;
 mod values;
 
 use std::ffi::OsString;
@@ -145,6 +146,7 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return FAILED;
         }
     };
+    threads::keep_within_memory();
     output::remove_unfinished_files_on_interrupt();
     output::protect(inputs(&words));
     let result = match cli.command {

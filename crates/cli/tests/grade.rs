@@ -456,7 +456,7 @@ fn hostile_files() {
     }
     // Far away is not unreadable.
     let far = grades(&[write(at("far"), repeated("1e38,-1e38,3e38\n"))], &[]);
-    assert_eq!((&far[0]["verdict"], &far[0]["score"]), (&"incorrect".into(), &2.0.into()));
+    assert_eq!((&far[0]["verdict"], &far[0]["score"]), (&"incorrect".into(), &0.0.into()));
     // An honest list without photons is none either.
     let none = grades(&[write(at("none"), "x,y,z\n")], &[]);
     assert_eq!((&none[0]["verdict"], &none[0]["score"]), (&"no-dots".into(), &1.0.into()));
@@ -534,10 +534,12 @@ fn the_number_that_the_course_gives_counts() {
 fn a_policy_sets_the_scores() {
     let folder = folder();
     let at = |path: &str| folder.path().join(path);
-    let list = write(at("far.csv"), "x,y,z\n".to_owned() + &"9,9,9\n".repeat(1000));
-    let policy = write(at("policy.json"), r#"{ "correct": 10, "incorrect": 2.5, "no-dots": 1 }"#);
-    let grade = &grades(std::slice::from_ref(&list), &["--policy", policy.to_str().unwrap()])[0];
-    assert_eq!(grade["score"], 2.5);
+    let list = write(at("some-far.csv"), csv() + &"9,9,9\n".repeat(100));
+    let far = write(at("far.csv"), "x,y,z\n".to_owned() + &"9,9,9\n".repeat(1000));
+    let policy =
+        write(at("policy.json"), r#"{ "correct": 10, "incorrect": 2.5, "unreadable": 0.5 }"#);
+    let graded = grades(&[list.clone(), far], &["--policy", policy.to_str().unwrap()]);
+    assert_eq!((&graded[0]["score"], &graded[1]["score"]), (&2.5.into(), &0.5.into()));
     for (text, parts) in [
         (r#"{ "corect": 4 }"#, &["policy.json:1: ", "'corect'", "did you mean 'correct'?"][..]),
         ("{ \"correct\": 4,\n \"price\": 1 }", &["policy.json:2: ", "'price'", "plausible"]),

@@ -3,7 +3,8 @@
 use glam::Vec3;
 
 use super::places::{Place, Places};
-use crate::limits::axes::{HARDLY_ALL, NEARLY_ALL, PROBES};
+use crate::limits::NEARLY_ALL;
+use crate::limits::axes::{HARDLY_ALL, PROBES};
 use photon_list::reader::PhotonList;
 
 /// Turns `list` to world space if it is plainly in the model's axes, and tells whether it was.

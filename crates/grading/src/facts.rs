@@ -1,8 +1,8 @@
 //! What a list shows without statistics: positions that cannot be, and what costs nothing.
 
 use super::limits::{
-    FEW_EMITTED, LEAST_EMITTED, MOST_ASTRAY, MOST_GAPS, MOST_IDENTICAL, MOST_REPEATED,
-    MOST_STRAIGHT, SIGNIFICANCE,
+    FEW_EMITTED, HARDLY_ANY, LEAST_EMITTED, MOST_ASTRAY, MOST_GAPS, MOST_IDENTICAL, MOST_REPEATED,
+    MOST_STRAIGHT, NEARLY_ALL, SIGNIFICANCE,
 };
 use super::observation::{Observation, ToLight};
 use super::places::Places;
@@ -235,8 +235,8 @@ pub fn remarks(
     if !is_set {
         return findings;
     }
-    let nearly_all = |count: u64| count as f64 > 0.95 * set as f64;
-    let few = |count: u64| count as f64 <= 0.01 * set as f64;
+    let nearly_all = |count: u64| count as f64 > NEARLY_ALL * set as f64;
+    let few = |count: u64| count as f64 <= HARDLY_ANY * set as f64;
     findings.push(remark(
         "to_light length",
         "directions of length 1",

@@ -3,17 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use super::limits::few::{EMITTED, PIECE, SEED};
 use super::limits::{FEW_PHOTONS, WORTH};
 use super::places::Places;
 use super::statistics::corrected;
 use variants::hypotheses::Hypothesis;
 use variants::variation::Simulation;
-
-/// With so many photons emitted the paths are counted.
-const EMITTED: u64 = 400_000;
-/// Their seed, and how many are traced at once.
-const SEED: u64 = 0x9_2020;
-const PIECE: u64 = 1 << 16;
 
 /// Photons that one path stores on a class, and in all.
 type PathStored = (usize, usize);

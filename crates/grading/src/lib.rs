@@ -10,7 +10,8 @@
 //! photons emitted: `evidence`. A list and a [`picture`] differ in how their cells are made and how
 //! hypotheses are projected on them, and in nothing else. `trial` asks whether any fair reading
 //! explains the counts, `naming` which misreading does, and `limits` has every line that is drawn.
-//! What shows without counting is in `facts`.
+//! What shows without counting is in `facts`, and [`recognized`] tells what was made up from a map
+//! with mistakes.
 //!
 //! **Statistics.** Photons of one path are not independent, so counts are held against means and
 //! *covariance* over paths: the test of Wald, for facets, for cells, for the total, and along the

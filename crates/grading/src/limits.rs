@@ -97,9 +97,14 @@ pub(crate) const ALL_COPIED: f64 = 0.95;
 /// A list with fewer different positions for each photon is a few places again and again. Copies by
 /// thread have one for as many photons as there are threads.
 pub(crate) const FEW_PLACES: f64 = 0.02;
-/// Of the records, at least this part lies on surfaces where their number is held against the
-/// intensity.
+/// Most, as of the records that lie on surfaces where their number is held against the intensity.
 pub(crate) const MOSTLY: f64 = 0.5;
+/// Nearly all, and hardly any, as of directions to the light: what is done throughout is done for
+/// all but a few, at edges and by rounding.
+pub(crate) const NEARLY_ALL: f64 = 0.95;
+pub(crate) const HARDLY_ANY: f64 = 0.01;
+/// Where a frame of the wall is not a number, a larger part of the positions is none.
+pub(crate) const NAN_FRAME: f64 = 0.2;
 
 // Single photons.
 
@@ -210,13 +215,68 @@ pub(crate) const FEWEST_GROUPS: usize = 4;
 /// But so few red pixels have no more groups.
 pub(crate) const FEW_RED: f64 = 1000.0;
 
+/// Where on the scene a photon lies.
+pub(crate) mod places {
+    /// How far off its surface a stored position may be, in world units: the handout does not say
+    /// where exactly, and the largest distance that counts as fair is 7e-3.
+    pub(crate) const FAR_OFF: f64 = 7.5e-3;
+    /// Photons this close to where another facet meets theirs are counted apart: which of the two
+    /// they belong to cannot be told of a position that is slightly off.
+    pub const MARGIN: f64 = 0.012;
+    /// A facet is large by its longest edge, and has so many cells along each side.
+    pub(crate) const LARGE: f64 = 1.5;
+    pub(crate) const CELLS_OF_LARGE: usize = 4;
+    pub(crate) const CELLS_OF_SMALL: usize = 2;
+    /// Along each side of a facet, to measure its cells: 256 in a small cell's.
+    pub(crate) const PROBES: usize = 64;
+}
+
+/// Paths that are counted, for few photons.
+pub(crate) mod few {
+    /// With so many photons emitted: 20,000 are stored, and what one in a thousand of them does is
+    /// known within a quarter.
+    pub(crate) const EMITTED: u64 = 400_000;
+    /// Their seed, and how many are traced at once.
+    pub(crate) const SEED: u64 = 0x9_2020;
+    pub(crate) const PIECE: u64 = 1 << 16;
+}
+
+/// What the camera sees.
+pub(crate) mod view {
+    /// Patches are the pixels of one facet in one square of the picture of so many pixels a side:
+    /// small enough for the density of photons to be the same all over it.
+    pub(crate) const PATCH: usize = 16;
+    /// Cubes around pixels that are farther apart than this, in pixels, share nothing: the closest
+    /// facet is 3.1 units away, where pixels are 0.003 apart, and a cube is 0.006 wide.
+    pub(crate) const NEIGHBORS: isize = 2;
+    /// How finely the parts that two cubes share are told apart.
+    pub(crate) const SHARES: usize = 16;
+}
+
+/// Files with pictures.
+pub(crate) mod pictures {
+    use photon_mapping::assignment8::{HEIGHT, WIDTH};
+
+    /// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5
+    /// MB. It bounds what a decoder has to unpack, too.
+    pub const MOST_BYTES: u64 = 4_000_000;
+    /// The same for pictures of any size: the largest that `render` draws, hardly compressed.
+    pub(crate) const MOST_BYTES_OF_ANY: u64 = 1_000_000_000;
+    /// The largest picture that `render` draws has so many pixels.
+    pub(crate) const MOST_PIXELS: u64 = 16_384 * 16_384;
+    /// A picture that is all alike is far shorter than this, unless nothing of it is compressed in
+    /// the longest format.
+    pub(crate) const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
+    /// What the decoder may allocate besides the picture.
+    pub(crate) const MOST_MEMORY: u64 = 16 << 20;
+}
+
 /// Lists in the model's axes.
 pub(crate) mod axes {
     /// How many records are looked at.
     pub(crate) const PROBES: usize = 10_000;
-    /// In the axes they are in, nearly all photons lie on surfaces; in others, hardly more than
-    /// half do.
-    pub(crate) const NEARLY_ALL: f64 = 0.95;
+    /// In the axes they are in, [`super::NEARLY_ALL`] photons lie on surfaces; in others, hardly
+    /// more than half do.
     pub(crate) const HARDLY_ALL: f64 = 0.8;
 }
 
@@ -285,6 +345,9 @@ pub(crate) mod submission {
     pub(crate) const TOGETHER: f64 = 0.5;
     /// Of fewer red pixels, it is not said that they do not.
     pub(crate) const FEWEST_DOTS: f64 = 100.0;
+    /// A longer list is not read to its end: one of the whole assignment has 50,000 records, one
+    /// with ten million photons and every mistake at once has fewer than this.
+    pub const MOST_RECORDS: usize = 5_000_000;
     /// Of [`super::FEW_EMITTED`] photons, so many are stored: one in twenty.
     pub(crate) const FEW_STORED: u32 = super::FEW_EMITTED as u32 / 20;
 }

@@ -5,7 +5,10 @@ use super::evidence::{Evidence, Words};
 use super::expected::Expected;
 use super::judge_list::Expectations;
 use super::kept::{Known, SignatureTable};
-use super::limits::{ALL_COPIED, FEW_PHOTONS, LEAST_LIKELY, MANY_REPEATED, SMALL_LIMIT, SUREST};
+use super::limits::{
+    ALL_COPIED, FEW_PHOTONS, HARDLY_ANY, LEAST_LIKELY, MANY_REPEATED, MOSTLY, NAN_FRAME,
+    SMALL_LIMIT, SUREST,
+};
 use super::naming::{Explanation, candidates, most_likely};
 use super::observation::Observation;
 use super::self_hits::{explain_by_self_hits, shows_self_hits};
@@ -88,7 +91,7 @@ impl Evidence for OfList<'_> {
         let Self { observation, .. } = self;
         let of_nan = observation.counts.not_finite / observation.records.max(1) as f64;
         if *id == "nan-frame" {
-            return of_nan > 0.2;
+            return of_nan > NAN_FRAME;
         }
         if *id == FAIR {
             return of_nan == 0.0 && !self.is_short();
@@ -96,8 +99,8 @@ impl Evidence for OfList<'_> {
         let is_below = variation.goes_below();
         let straight = observation.to_light.and_then(|to_light| to_light.part_straight());
         let is_straight = match straight {
-            Some(part) if variation.stores_direct() => part > 0.5,
-            Some(part) => is_below || variation.fewer_bounces > 0 || part < 0.01,
+            Some(part) if variation.stores_direct() => part > MOSTLY,
+            Some(part) => is_below || variation.fewer_bounces > 0 || part < HARDLY_ANY,
             None => true,
         };
         let is_long = !self.is_short()

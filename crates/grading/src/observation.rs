@@ -4,6 +4,7 @@ use super::crowding::crowding;
 use super::places::{Place, Places};
 use super::repeats::{Copies, Repeat, are_by_rounding, copies, repeats};
 use crate::limits::observation::{EXACT_DECIMALS, FEWEST_DECIMALS, LEAST_NUMBER};
+use crate::limits::{HARDLY_ANY, NEARLY_ALL};
 use glam::{DVec3, Vec3};
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
@@ -75,7 +76,7 @@ impl ToLight {
     /// way that photons came.
     pub fn is_towards_light_throughout(&self) -> bool {
         let set = self.set as f64;
-        self.to_the_light as f64 > 0.95 * set && self.from_behind as f64 > 0.01 * set
+        self.to_the_light as f64 > NEARLY_ALL * set && self.from_behind as f64 > HARDLY_ANY * set
     }
 
     /// The part of the photons that come straight from the light, if the directions tell.

@@ -3,17 +3,10 @@
 use glam::{DVec3, Vec3};
 
 use super::limits::LEEWAY;
+pub use super::limits::places::MARGIN;
+use super::limits::places::{CELLS_OF_LARGE, CELLS_OF_SMALL, FAR_OFF, LARGE, PROBES};
 use model::facets::Footprint;
 use photon_mapping::scene::Scene;
-
-/// How far off its surface a stored position may be, in world units: the handout does not say where
-/// exactly, and the largest distance that counts as fair is 7e-3.
-pub const FAR_OFF: f64 = 7.5e-3;
-/// Photons this close to where another facet meets theirs are counted apart: which of the two they
-/// belong to cannot be told of a position that is slightly off.
-pub const MARGIN: f64 = 0.012;
-/// A large facet has 4 x 4 cells, a small one 2 x 2: its longest edge decides.
-const LARGE: f64 = 1.5;
 
 /// Where a position lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,7 +127,7 @@ impl Places {
             let plane = (c - a).cross(d - b).normalize();
             let normal = plane * plane.dot(first.normal.as_dvec3()).signum();
             let longest = a.distance(b).max(a.distance(d));
-            let divisions = if longest > LARGE { 4 } else { 2 };
+            let divisions = if longest > LARGE { CELLS_OF_LARGE } else { CELLS_OF_SMALL };
             facets.push(FacetCells {
                 surface: first.parent_mesh_object,
                 corners: [a, b, c, d],
@@ -165,7 +158,6 @@ impl Places {
 
     /// The area of each cell, without what is too close to other facets, or under a box.
     pub fn areas_of_cells(&self) -> Vec<f64> {
-        const PROBES: usize = 64;
         let mut areas = vec![0.0; self.cells];
         let part = |along: usize| (along as f64 + 0.5) / PROBES as f64;
         for FacetCells { corners: [a, b, c, d], .. } in self.facets.iter().cloned() {

@@ -14,13 +14,19 @@ pub const RECOGNIZED: &str = "photon map";
 
 /// The finding that nothing of the photon map is in `evidence`, if so.
 pub(crate) fn not_recognized<E: Evidence>(evidence: &E) -> Option<Finding> {
-    let [apart, uneven] = [to_nearest(evidence), to_even(evidence)];
-    let is_even = uneven < EVEN && uneven + MORE_EVEN < apart;
+    let apart = to_nearest(evidence);
     let unit = E::WORDS.unit;
-    let found = if is_even {
-        format!("{unit} that lie evenly all over the surfaces, as no light leaves them")
-    } else {
+    let places = evidence.of_cells().iter().sum::<f64>() + evidence.strays();
+    let found = if places < FEWEST_RED {
+        format!("{unit} at {places} places, too few to show a pattern")
+    } else if apart > MADE_UP {
         format!("{:.0} % of the {unit} lie where nothing that is known leaves them", 100.0 * apart)
+    } else {
+        let uneven = to_even(evidence);
+        if uneven >= EVEN || uneven + MORE_EVEN >= apart {
+            return None;
+        }
+        format!("{unit} that lie evenly all over the surfaces, as no light leaves them")
     };
     let finding = Finding::new(
         RECOGNIZED,
@@ -29,7 +35,7 @@ pub(crate) fn not_recognized<E: Evidence>(evidence: &E) -> Option<Finding> {
         "Nothing of the photon map is recognizable: a person must look. Check which file was \
          handed in, and which program made it.",
     );
-    (is_even || apart > MADE_UP).then(|| finding.weighing(Weight::Grave))
+    Some(finding.weighing(Weight::Grave))
 }
 
 /// The part of the counts that would have to move until they are as the nearest hypothesis leaves

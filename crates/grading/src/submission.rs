@@ -18,15 +18,12 @@ use super::policy::Policy;
 use super::recognized::RECOGNIZED;
 use super::text::{printable, rounded};
 use super::verdict::{Finding, Grade, Verdict, Weight};
+pub use crate::limits::submission::MOST_RECORDS;
 use crate::limits::submission::{FEW_STORED, FEWEST_DOTS, TOGETHER};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
 use variants::section::Section;
-
-/// A longer list is not read to its end: one of the whole assignment has 50,000 records, one with
-/// ten million photons and every mistake at once has fewer than this.
-pub const MOST_RECORDS: usize = 5_000_000;
 
 /// What one student handed in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

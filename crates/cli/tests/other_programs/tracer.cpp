@@ -134,15 +134,19 @@ struct Tracer {
     struct Flags {  // read once; std::set look-ups would dominate the run time
 #define FL(n) bool n = has(#n);
         FL(octant)
-        FL(cube) FL(corners) FL(nonorm) FL(origin0) FL(polar) FL(xeqy) FL(reseed) FL(sumtest)
-            FL(sphere) FL(gauss) FL(strat) FL(direct) FL(pathgt2) FL(atorigin) FL(onlyscat)
-                FL(twice) FL(sameray) FL(fade) FL(jensen) FL(inverted) FL(always) FL(mean)
-                    FL(length) FL(reuse) FL(red) FL(halfdisk) FL(rlinear) FL(uniform) FL(sameu)
-                        FL(degrees) FL(zlinear) FL(swapu) FL(concentric) FL(malley) FL(u2first)
-                            FL(notrans) FL(transpose) FL(collapse) FL(fromlight) FL(order)
-                                FL(negate) FL(mirror) FL(invthr) FL(nbasis) FL(duff) FL(thr8)
-                                    FL(facen) FL(nooff) FL(offdir) FL(off1e3) FL(skiptri) FL(latexi)
-                                        FL(upz) FL(tangentpoint) FL(off01)
+        FL(cube)
+        FL(corners) FL(nonorm) FL(origin0) FL(polar) FL(xeqy) FL(reseed) FL(sumtest) FL(sphere)
+            FL(gauss) FL(strat) FL(direct) FL(pathgt2) FL(atorigin) FL(onlyscat) FL(twice)
+                FL(sameray) FL(fade) FL(jensen) FL(inverted) FL(always) FL(mean) FL(length)
+                    FL(reuse) FL(red) FL(halfdisk) FL(rlinear) FL(uniform) FL(sameu) FL(degrees)
+                        FL(zlinear) FL(swapu) FL(concentric) FL(malley) FL(u2first) FL(notrans)
+                            FL(transpose) FL(collapse) FL(fromlight) FL(order) FL(negate) FL(mirror)
+                                FL(invthr) FL(nbasis) FL(duff) FL(thr8) FL(facen) FL(nooff)
+                                    FL(offdir) FL(off1e3) FL(skiptri) FL(latexi) FL(upz)
+                                        FL(tangentpoint) FL(off01) FL(tmin) FL(storeroulette)
+                                            FL(rand100) FL(cumul) FL(nanhit) FL(fib) FL(upperend)
+                                                FL(nudge) FL(noabs) FL(firsthit) FL(otherbasis)
+                                                    FL(never)
 #undef FL
     } f;
     Tracer() {
@@ -167,7 +171,10 @@ struct Tracer {
             }
         }
     }
-    T rnd() { return T(rng.raw()) / T(2147483648.0); }  // [0,1) (in float it may round to 1)
+    T rnd() {
+        T u = T(rng.raw()) / T(2147483648.0);
+        return f.rand100 ? std::floor(u * 100) / 100 : u;
+    }  // [0,1) (in float it may round to 1)
     T u01() {
         for (;;) {
             T u = rnd();
@@ -186,17 +193,22 @@ struct Tracer {
         T v = dot(d, q) * inv;
         if (!(v >= 0) || !(u + v <= 1)) return false;
         tt = dot(t.e2, q) * inv;
-        return tt > T(-1e-7);
+        return tt > (f.tmin ? T(1e-4) : T(-1e-7));
     }
     int trace(W o, W d, T& best, int skip) const {
         int r = -1;
         best = T(3e38);
+        if (f.nanhit && std::isnan(d.x)) {  // of which every comparison is false
+            best = d.x;
+            return 0;
+        }
         for (int k = 0; k < (int)tris.size(); ++k) {
             if (k == skip) continue;
             T t;
             if (hit(tris[k], o, d, t) && t <= best + T(1e-7)) {
                 best = t;
                 r = k;
+                if (f.firsthit) return r;
             }
         }
         return r;
@@ -220,6 +232,11 @@ struct Tracer {
             }
             return norm(W{g[0], g[1], g[2]});
         }
+        if (f.fib) {
+            T z = 1 - 2 * (i + T(0.5)) / n, a = PIv * (1 + std::sqrt(T(5))) * (i + T(0.5)),
+              r = std::sqrt(1 - z * z);
+            return {r * std::cos(a), r * std::sin(a), z};
+        }
         if (f.strat) {
             long m = (long)std::sqrt((double)n), c = i % (m * m);
             T z = 2 * ((c / m) + u01()) / m - 1, a = 2 * PIv * ((c % m) + u01()) / m,
@@ -241,6 +258,23 @@ struct Tracer {
             return f.nonorm ? d : norm(d);
         }
     }
+    W anywhere(int quad) {
+        const Tri &a = tris[2 * quad], &b = tris[2 * quad + 1];
+        T s = u01(), t = u01();
+        return a.a + a.e1 * (s * (1 - t)) + a.e2 * (s * t) + b.e2 * ((1 - s) * t);
+    }
+    W moved(W p, int quad, T by) {
+        const Tri& a = tris[2 * quad];
+        return p + norm(a.e1) * (by * (u01() - T(0.5))) +
+               norm(cross(a.n, a.e1)) * (by * (u01() - T(0.5)));
+    }
+    bool in_sight(const Rec& r) {
+        W eye{0, T(-4.1469), T(0.73693)}, way = W{T(r.p[0]), T(r.p[1]), T(r.p[2])} - eye;
+        T t, half = std::tan(T(0.23213));
+        trace(eye, way, t, -1);
+        return t > T(0.9999) && std::fabs(way.z) < half * way.y &&
+               std::fabs(way.x) < half * way.y * T(640) / T(480);
+    }
     void frame(W n, W& t, W& b) {
         if (f.duff) {
             T s = std::copysign(T(1), n.z), a = -1 / (s + n.z), c = n.x * n.y * a;
@@ -250,9 +284,14 @@ struct Tracer {
         }
         W up{1, 0, 0};
         T lim = f.thr8 ? T(0.8) : T(0.99);
-        bool par = std::fabs(dot(n, up)) > lim;
+        W other{0, 1, 0};
+        if (f.otherbasis) {
+            std::swap(up, other);
+            lim = T(0.9);
+        }
+        bool par = (f.noabs ? dot(n, up) : std::fabs(dot(n, up))) > lim;
         if (f.invthr) par = !par;
-        if (par) up = W{0, 1, 0};
+        if (par) up = other;
         if (f.upz) up = W{0, 0, 1};
         t = cross(n, up);
         if (f.nbasis) t = norm(t);
@@ -265,6 +304,7 @@ struct Tracer {
         W o = light, d = emit(idx, n);
         float I[3];
         for (float& c : I) c = 1.0f / n;
+        float all[3] = {1, 1, 1};
         int skip = -1;
         for (int b = 0, rem = 1000; rem >= 0; ++b, --rem) {
             T t;
@@ -272,9 +312,9 @@ struct Tracer {
             if (k < 0) return;
             const Tri& h = tris[k];
             W p = o + d * t;
-            bool want = b > (f.pathgt2 ? 1 : 0) || f.direct;
+            bool want = (b > (f.pathgt2 ? 1 : 0) || f.direct) && !f.never;
             Rec r;
-            W rp = f.atorigin ? o : p, rd = f.sameray ? d : -d;
+            W rp = f.atorigin ? o : f.nudge ? p + h.n * T(1e-5) : p, rd = f.sameray ? d : -d;
             r.b = b;
             r.quad = h.quad;
             r.p[0] = rp.x;
@@ -287,7 +327,7 @@ struct Tracer {
             r.o[1] = p.y;
             r.o[2] = p.z;
             memcpy(r.i, I, sizeof I);
-            if (want && !f.onlyscat) {
+            if (want && !f.onlyscat && !f.storeroulette) {
                 out.push_back(r);
                 if (f.twice) out.push_back(r);
             }
@@ -297,6 +337,8 @@ struct Tracer {
                 D[1] = 0.45f;
                 D[2] = 0.091f;
             }
+            if (f.cumul)
+                for (int c = 0; c < 3; ++c) D[c] = all[c] *= D[c];
             T P = std::max(D[0], std::max(D[1], D[2]));
             if (f.mean) P = (D[0] + D[1] + D[2]) / 3;
             if (f.red) P = D[0];
@@ -307,8 +349,9 @@ struct Tracer {
                 u1 = u01();
             }
             T xi = u01();
-            bool scatter = f.inverted ? xi > P : xi < P;
-            if (f.always) scatter = true;
+            bool scatter = f.inverted ? xi > P : f.upperend ? xi >= 1 - P : xi < P;
+            if (f.storeroulette && scatter && want) out.push_back(r);
+            if (f.always || f.storeroulette) scatter = true;
             if (!scatter) return;
             if (want && f.onlyscat) out.push_back(r);
             if (!f.latexi) {
@@ -379,7 +422,7 @@ struct Tracer {
             if (f.skiptri) {
                 skip = k;
                 o = p;
-            } else if (f.nooff)
+            } else if (f.nooff || f.tmin)
                 o = p;
             else if (f.offdir)
                 o = p + w * T(1e-4);
@@ -396,12 +439,29 @@ template <class T>
 int run(long n, uint64_t seed, const char* file, const std::string& cols, int digits) {
     Tracer<T> tr;
     rng.seed(seed);
-    for (long i = 0; i < n; ++i) {
-        if (tr.f.reseed && i % 10000 == 0) {
-        }
+    bool padded = has("padded"), strewn = has("strewn");
+    for (long i = 0; i < (padded ? n / 10 : n); ++i) {
         if (tr.f.reseed) rng.seed(seed + i / 10000);
+        if (has("batches") && i % 10000 == 0) rng.seed(seed);
         tr.photon(i, n);
     }
+    // No tracing at all: what is written was made up of a right list.
+    rng.seed(seed + 1);
+    for (size_t all = tr.out.size(), copy = 0; padded && copy < 9 * all; ++copy) {
+        Rec r = tr.out[copy % all];
+        V<T> at{T(r.p[0]), T(r.p[1]), T(r.p[2])}, to = tr.moved(at, r.quad, T(0.004));
+        r.p[0] = to.x, r.p[1] = to.y, r.p[2] = to.z;
+        tr.out.push_back(r);
+    }
+    for (Rec& r : tr.out)
+        if (strewn) {
+            V<T> to = tr.anywhere(r.quad);
+            r.p[0] = to.x, r.p[1] = to.y, r.p[2] = to.z;
+        }
+    if (has("insight"))
+        tr.out.erase(std::remove_if(tr.out.begin(), tr.out.end(),
+                                    [&](const Rec& r) { return !tr.in_sight(r); }),
+                     tr.out.end());
     long byq[12] = {0};
     int maxb = 0;
     for (const Rec& r : tr.out) {

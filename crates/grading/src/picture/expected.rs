@@ -7,8 +7,9 @@
 //! two, which is rare enough to be known by facet only.
 
 use super::signature::PictureSignature;
-use super::view::{SHARES, View};
+use super::view::View;
 use crate::expected::Expected;
+use crate::limits::view::SHARES;
 
 /// Which part of the photons over each patch's pixels is near enough to show, by facet in sight: 1
 /// for photons that lie on their facet.

@@ -8,23 +8,13 @@ use image::codecs::png::PngDecoder;
 use image::{DynamicImage, Limits, RgbImage};
 
 use super::kinds::{Kind, PNG, START, kind, png_size};
+pub use crate::limits::pictures::MOST_BYTES;
+use crate::limits::pictures::{MOST_BYTES_OF_ANY, MOST_MEMORY, MOST_PIXELS, MOST_UNPACKED};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
-/// A larger file is not read: 16 bits for each of four channels, not compressed at all, are 2.5 MB.
-/// It bounds what a decoder has to unpack, too.
-pub const MOST_BYTES: u64 = 4_000_000;
-/// The same for pictures of any size: the largest that `render` draws, hardly compressed.
-const MOST_BYTES_OF_ANY: u64 = 1_000_000_000;
-/// The largest picture that `render` draws has so many pixels.
-const MOST_PIXELS: u64 = 16_384 * 16_384;
-/// A picture that is all alike is far shorter than this, unless nothing of it is compressed in the
-/// longest format.
-const MOST_UNPACKED: usize = (WIDTH * HEIGHT * 8) as usize;
 /// The chunks of a PNG file that make its pixels, and the bytes of a chunk besides its contents.
 const PIXEL_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
 const CHUNK_FRAME: usize = 12;
-/// What the decoder may allocate besides the picture.
-const MOST_MEMORY: u64 = 16 << 20;
 
 /// Reads the picture `path`, in bounded time and memory.
 ///

@@ -7,6 +7,7 @@ use glam::Vec3;
 use image::RgbImage;
 use rayon::prelude::*;
 
+use crate::limits::view::{NEIGHBORS, PATCH, SHARES};
 use crate::places::{MARGIN, Place, Places};
 use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_renderer, create_scene};
 use photon_mapping::rendering::image_writer::to_bytes;
@@ -14,14 +15,6 @@ use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::camera::PerspectiveCamera;
 use photon_mapping::scene::ray::IntersectionState;
 
-/// Patches are the pixels of one facet in one square of the picture of so many pixels a side: small
-/// enough for the density of photons to be the same all over it.
-const PATCH: usize = 16;
-/// Cubes around pixels that are farther apart than this, in pixels, share nothing: the closest
-/// facet is 3.1 units away, where pixels are 0.003 apart, and a cube is 0.006 wide.
-const NEIGHBORS: isize = 2;
-/// How finely the parts that two cubes share are told apart.
-pub const SHARES: usize = 16;
 /// No patch.
 const NONE: u32 = u32::MAX;
 
