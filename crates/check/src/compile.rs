@@ -16,7 +16,7 @@ use crate::find::{
 use crate::foreign::{file_directive, take_headers};
 use crate::headers::Headers;
 use crate::kit::{Kit, write};
-use crate::sandbox::{BUSY, Exit, Limits, Program, RunOutcome, search_path};
+use crate::sandbox::{Exit, Limits, Program, RunOutcome, on_clock, search_path};
 
 /// The framework's standard first; the other for those whose compiler let them use more. This
 /// name of C++20 is the one that older compilers know, too.
@@ -290,7 +290,7 @@ impl<'kit> Workshop<'kit> {
     }
 
     pub(crate) fn run(&self, command: Vec<OsString>) -> Result<RunOutcome, CheckError> {
-        let (processor, time) = (self.time, BUSY * self.time);
+        let (processor, time) = (self.time, on_clock(self.time));
         let limits = Limits { time, processor, memory: MEMORY, file_blocks: 1 << 19 };
         let mut outcome = self.program(command).run(limits, |_| Some(time))?;
         // The compiler says so of the process that it started.

@@ -33,6 +33,9 @@ const ASSETS: &[(&str, &str)] = assets![
     "harness/recorder.cpp",
     "harness/recorder.hpp",
     "harness/scene.cpp",
+    // Those that people plug into the framework themselves, by links to `interop/cpp`.
+    "standin/photon_dump.hpp",
+    "standin/reference_rand.hpp",
     "standin/common/common.h",
     "standin/common/core.h",
     "standin/common/Intersection/IntersectionState.h",

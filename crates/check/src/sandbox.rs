@@ -3,8 +3,7 @@
 //! Every program gets an empty environment, no standard input, limits of time, memory and file
 //! size, and a process group of its own that ends with it. The limits are set by the shell's
 //! `ulimit`, which every POSIX system has: Rust can set them only in unsafe code, or after the
-//! program has started. Where bubblewrap works, the program sees the file system read-only, has no
-//! network and a process space of its own. The harness adds a filter of system calls on Linux; see
+//! program has started. Where bubblewrap or `unshare` works, there is a [`Wall`]. The harness adds a filter of system calls on Linux; see
 //! `assets/harness/guard.cpp`.
 
 use std::ffi::OsString;
@@ -25,9 +24,11 @@ const MOST_PRINTED: usize = 1 << 20;
 /// A program that prints more than this is ended.
 pub(crate) const MOST_BYTES: u64 = 32 << 20;
 
-/// So many times its processor time may a program take on the clock: a busy machine must not make
-/// it fail.
-pub(crate) const BUSY: u32 = 5;
+/// How long what may use `processor` time may take on the clock: a busy machine must not make it
+/// fail.
+pub(crate) fn on_clock(processor: Duration) -> Duration {
+    (5 * processor).max(Duration::from_secs(60))
+}
 
 /// The limits of one program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,27 +81,71 @@ pub struct Program {
     pub writes: bool,
 }
 
-/// Whether bubblewrap is there and allowed to work.
-pub fn has_bubblewrap() -> bool {
-    static WORKS: OnceLock<bool> = OnceLock::new();
-    *WORKS.get_or_init(|| {
-        Command::new("bwrap")
-            .args([
-                "--ro-bind",
-                "/",
-                "/",
-                "--dev",
-                "/dev",
-                "--proc",
-                "/proc",
-                "--unshare-all",
-                "true",
-            ])
+/// Bubblewrap: no network, processes of its own, and a file system that is read-only.
+const BUBBLEWRAP: &[&str] = &[
+    "bwrap",
+    "--ro-bind",
+    "/",
+    "/",
+    "--dev",
+    "/dev",
+    "--proc",
+    "/proc",
+    "--unshare-all",
+    "--die-with-parent",
+];
+/// Programs of util-linux: no network, and processes of its own that end with the checker. Signals
+/// do not end the first process, so that is a shell.
+const UNSHARE: &[&str] = &[
+    "unshare",
+    "--user",
+    "--map-current-user",
+    "--keep-caps",
+    "setpriv",
+    "--pdeathsig=KILL",
+    "unshare",
+    "--net",
+    "--ipc",
+    "--pid",
+    "--fork",
+    "--kill-child",
+    "setpriv",
+    "--ambient-caps=-all",
+    "--inh-caps=-all",
+    "sh",
+    "-c",
+    "exec 4>&2 2>/dev/null; (exec \"$@\" 2>&4 4>&-); exit $?",
+    "sh",
+];
+
+/// What walls programs off, where it is there and allowed to work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wall {
+    /// Bubblewrap.
+    Bubblewrap,
+    /// `unshare`: for submissions, not for compilers.
+    Unshare,
+    /// Nothing.
+    None,
+}
+
+/// The best wall of this system.
+pub fn wall() -> Wall {
+    static WALL: OnceLock<Wall> = OnceLock::new();
+    let works = |command: &[&str]| {
+        Command::new(command[0])
+            .args(&command[1..])
+            .arg("true")
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .status()
             .is_ok_and(|status| status.success())
+    };
+    *WALL.get_or_init(|| match () {
+        () if works(BUBBLEWRAP) => Wall::Bubblewrap,
+        () if works(UNSHARE) => Wall::Unshare,
+        () => Wall::None,
     })
 }
 
@@ -119,11 +164,13 @@ impl Program {
         command.arg(limits.processor.as_secs().max(1).to_string());
         command.arg((limits.memory << 10).to_string());
         command.arg(limits.file_blocks.to_string());
-        if has_bubblewrap() {
-            command.args(["bwrap", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc"]);
-            command.arg(if self.writes { "--bind" } else { "--ro-bind" });
-            command.arg(&self.folder).arg(&self.folder);
-            command.args(["--unshare-all", "--die-with-parent", "--chdir"]).arg(&self.folder);
+        match wall() {
+            Wall::Bubblewrap => {
+                command.args(BUBBLEWRAP).arg(if self.writes { "--bind" } else { "--ro-bind" });
+                command.args([&self.folder, &self.folder]).arg("--chdir").arg(&self.folder);
+            }
+            Wall::Unshare if !self.writes => drop(command.args(UNSHARE)),
+            Wall::Unshare | Wall::None => {}
         }
         command.args(&self.command);
         command.env_clear().envs(self.environment.iter().map(|(name, value)| (name, value)));

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use check::find::{CppSubmission, refuse_class};
 use check::kit::Kit;
-use check::sandbox::has_bubblewrap;
+use check::sandbox::{Wall, wall};
 use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
@@ -52,7 +52,7 @@ pub struct CheckArgs {
     #[arg(long)]
     class: bool,
     /// Processor time for each file to compile, and for the whole run, in seconds. Each probe of a
-    /// section has 3 seconds. On the clock, everything has five times as long
+    /// section has 3 seconds. On the clock, each has five times as long, and a minute at least
     #[arg(long, value_name = "SECONDS", default_value = "60",
           value_parser = values::whole(1_u64, 3600))]
     timeout: u64,
@@ -142,10 +142,10 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     for submission in found.iter().flatten() {
         protect(submission.light.iter().chain(&submission.renderer).chain(&submission.headers));
     }
-    if !has_bubblewrap() {
+    if wall() == Wall::None {
         super::complain(
-            "note: bubblewrap is not installed or does not work here, so submissions can read \
-             files of this account",
+            "note: neither bubblewrap nor unshare works here, so nothing but a filter of system \
+             calls keeps submissions from the network and from other processes",
         );
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;

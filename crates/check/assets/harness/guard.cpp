@@ -19,6 +19,22 @@ char* top_of_stack = nullptr;
 bool is_guarded = false;
 int plan = -1;
 
+// Whoever does not ask whether malloc() gave memory crashes where there is none left.
+bool memory_is_used_up() {
+    rlimit limit;
+    rusage used;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+        getrusage(RUSAGE_SELF, &used) != 0) {
+        return false;
+    }
+#ifdef __APPLE__
+    const rlim_t bytes = static_cast<rlim_t>(used.ru_maxrss);
+#else
+    const rlim_t bytes = static_cast<rlim_t>(used.ru_maxrss) * 1024;
+#endif
+    return bytes > limit.rlim_cur / 4 * 3;
+}
+
 // A stack that overflowed cannot run this handler, so it has a stack of its own.
 void on_segmentation_fault(int, siginfo_t* about, void*) {
     const char* const at = static_cast<const char*>(about->si_addr);
@@ -29,6 +45,8 @@ void on_segmentation_fault(int, siginfo_t* about, void*) {
     const std::size_t margin = 1u << 20;
     if (at < top_of_stack && at + size + margin > top_of_stack) {
         photon_check::stack_overflowed();
+    } else if (memory_is_used_up()) {
+        photon_check::memory_ran_out();
     }
     std::signal(SIGSEGV, SIG_DFL);
     std::raise(SIGSEGV);
