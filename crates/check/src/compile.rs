@@ -217,20 +217,6 @@ impl<'kit> Workshop<'kit> {
         }
     }
 
-    /// The object file of `assembly`, or what is wrong with it.
-    fn assemble(&self, assembly: &Path) -> Result<Result<PathBuf, String>, CheckError> {
-        let object = assembly.with_extension("o");
-        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into(), "-c".into()];
-        command.extend([assembly.into(), "-o".into(), object.clone().into()]);
-        let outcome = self.run(command)?;
-        if outcome.ending == Exit::Code(0) {
-            return Ok(Ok(object));
-        }
-        let errors = outcome.printed.lines().filter_map(|line| line.split_once("rror: "));
-        let error = errors.map(|(_, error)| error.trim()).next().unwrap_or("unknown");
-        Ok(Err(format!("its assembler code is wrong: {error}")))
-    }
-
     /// Writes the headers that `attempt` lacks, or empties one that does not fit; whether there is
     /// any.
     fn change_headers(&self, attempt: &Invocation<'_>, printed: &str) -> Result<bool, CheckError> {

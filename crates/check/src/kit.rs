@@ -139,8 +139,7 @@ impl Kit {
     }
 }
 
-/// Removes the folders in `parent` that were left by processes of this user that were killed: nobody
-/// locks them.
+/// Removes the folders in `parent` that killed processes of this user left: nobody locks them.
 fn remove_abandoned(parent: &Path) {
     let user = rustix::process::geteuid().as_raw();
     for entry in fs::read_dir(parent).into_iter().flatten().flatten() {

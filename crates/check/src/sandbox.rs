@@ -3,21 +3,21 @@
 //! Every program gets an empty environment, no standard input, limits of time, memory and file
 //! size, and a process group of its own that ends with it. The limits are set by the shell's
 //! `ulimit`, which every POSIX system has: Rust can set them only in unsafe code, or after the
-//! program has started. Where bubblewrap or `unshare` works, there is a [`Wall`]. The harness adds a filter of system calls on Linux; see
-//! `assets/harness/guard.cpp`.
+//! program has started. Where the system has one, there is a [`Wall`]. The harness adds a filter of
+//! system calls on Linux; see `assets/harness/guard.cpp`.
 
 use std::ffi::OsString;
 use std::io::Read;
 use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
 use crate::error::CheckError;
+use crate::wall::{BUBBLEWRAP, UNSHARE, Wall, wall};
 
 /// So much of what a program prints is kept.
 const MOST_PRINTED: usize = 1 << 20;
@@ -81,79 +81,12 @@ pub struct Program {
     pub writes: bool,
 }
 
-/// Bubblewrap: no network, processes of its own, and a file system that is read-only.
-const BUBBLEWRAP: &[&str] = &[
-    "bwrap",
-    "--ro-bind",
-    "/",
-    "/",
-    "--dev",
-    "/dev",
-    "--proc",
-    "/proc",
-    "--unshare-all",
-    "--die-with-parent",
-];
-/// Programs of util-linux: no network, and processes of its own that end with the checker. Signals
-/// do not end the first process, so that is a shell.
-const UNSHARE: &[&str] = &[
-    "unshare",
-    "--user",
-    "--map-current-user",
-    "--keep-caps",
-    "setpriv",
-    "--pdeathsig=KILL",
-    "unshare",
-    "--net",
-    "--ipc",
-    "--pid",
-    "--fork",
-    "--kill-child",
-    "setpriv",
-    "--ambient-caps=-all",
-    "--inh-caps=-all",
-    "sh",
-    "-c",
-    "exec 4>&2 2>/dev/null; (exec \"$@\" 2>&4 4>&-); exit $?",
-    "sh",
-];
-
-/// What walls programs off, where it is there and allowed to work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wall {
-    /// Bubblewrap.
-    Bubblewrap,
-    /// `unshare`: for submissions, not for compilers.
-    Unshare,
-    /// Nothing.
-    None,
-}
-
-/// The best wall of this system.
-pub fn wall() -> Wall {
-    static WALL: OnceLock<Wall> = OnceLock::new();
-    let works = |command: &[&str]| {
-        Command::new(command[0])
-            .args(&command[1..])
-            .arg("true")
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .status()
-            .is_ok_and(|status| status.success())
-    };
-    *WALL.get_or_init(|| match () {
-        () if works(BUBBLEWRAP) => Wall::Bubblewrap,
-        () if works(UNSHARE) => Wall::Unshare,
-        () => Wall::None,
-    })
-}
-
 /// What the shell does before the program: sets the limits, gives the pipe of standard output the
 /// number 3, and lets what is printed go where errors go. A limit that the system does not know is
 /// passed over.
 const SHELL: &str =
-    "{ ulimit -H -t $(($1 + 2)); ulimit -S -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
+    "{ ulimit -H -t $(($1 + 2)); ulimit -S -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0
+ulimit -s 65536; } 2>/dev/null
 shift 3
 exec \"$@\" 3>&1 1>&2 </dev/null";
 
@@ -233,7 +166,7 @@ impl Program {
             let closed = Instant::now();
             while status.is_none() {
                 status = child.try_wait().map_err(CheckError::io("sh"))?;
-                if status.is_none() && closed.elapsed() > Duration::from_secs(1) {
+                if status.is_none() && closed.elapsed() > Duration::from_secs(5) {
                     break;
                 }
                 if status.is_none() {

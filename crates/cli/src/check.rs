@@ -1,6 +1,5 @@
 //! `photon-mapping check`: compiles and runs the two C++ files of a submission, section by section.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -8,7 +7,7 @@ use std::time::Duration;
 
 use check::find::{CppSubmission, refuse_class};
 use check::kit::Kit;
-use check::sandbox::{Wall, wall};
+use check::wall::{Wall, wall};
 use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use grading::gradescope;
@@ -23,6 +22,7 @@ use rayon::prelude::*;
 use super::error::{CliError, print_whole};
 use super::grade::{INDEX, json, made_by, places_of_each};
 use super::gradebook::{GradebookArgs, Roll};
+use super::in_order::InOrder;
 use super::output::{OutputFile, protect, write};
 use super::{progress, values};
 
@@ -242,30 +242,6 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         (None, None) => print_whole(&together())?,
     }
     Ok(if problems.is_empty() { 0 } else { super::FAILED })
-}
-
-/// Prints reports as they come, each after those before it.
-#[derive(Default)]
-struct InOrder {
-    next: usize,
-    has_printed: bool,
-    /// Those that wait for others; nothing for a submission that could not be checked.
-    waiting: BTreeMap<usize, Option<String>>,
-    /// Why nothing can be printed any more.
-    problem: Option<CliError>,
-}
-
-impl InOrder {
-    fn print(&mut self, at: usize, text: Option<String>) {
-        self.waiting.insert(at, text);
-        while let Some(text) = self.waiting.remove(&self.next) {
-            self.next += 1;
-            let Some(text) = text.filter(|_| self.problem.is_none()) else { continue };
-            let gap = if self.has_printed { "\n" } else { "" };
-            self.has_printed = true;
-            self.problem = print_whole(&format!("{gap}{text}")).err();
-        }
-    }
 }
 
 fn text_of(checked: &Checked, policy: &Policy) -> String {

@@ -211,7 +211,8 @@ void guard(int argc, char** argv, char**) {
         SYS_bind,     SYS_unlinkat,     SYS_renameat2, SYS_mkdirat,    SYS_linkat,
         SYS_symlinkat, SYS_fchmod,      SYS_fchmodat,  SYS_fchown,     SYS_fchownat,
         SYS_mknodat,  SYS_truncate,     SYS_ptrace,    SYS_process_vm_writev, SYS_setsid,
-        SYS_process_vm_readv, SYS_open_by_handle_at, SYS_setpgid,  SYS_setrlimit,    SYS_unshare,   SYS_setns,      SYS_mount,
+        SYS_process_vm_readv, SYS_open_by_handle_at,
+        SYS_setpgid,  SYS_setrlimit,    SYS_unshare,   SYS_setns,      SYS_mount,
         SYS_tkill,    SYS_rt_sigqueueinfo, SYS_utimensat, SYS_setxattr, SYS_io_setup,
         SYS_shmget,   SYS_msgget,       SYS_mq_open,
 #ifdef SYS_renameat
