@@ -1,4 +1,5 @@
-//! Assembling and linking a submission: with sources of its own besides the two, where they are needed.
+//! Assembling and linking a submission: with sources of its own besides the two, where they are
+//! needed.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
