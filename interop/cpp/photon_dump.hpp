@@ -56,8 +56,9 @@ struct Triple {
     float x, y, z;
 };
 
-// The overloads differ in their last parameter only, int being the better match for 0: names go
-// before indices, because vector types that have both need not agree on what [] means.
+// `photon-mapping check` reads photons with these overloads, too. They differ in their last
+// parameter only, int being the better match for 0: names go before indices, because vector types
+// that have both need not agree on what [] means.
 template <class Vector>
 auto to_triple(const Vector& v, int) -> decltype(static_cast<void>(v.z), Triple()) {
     const Triple triple = {static_cast<float>(v.x), static_cast<float>(v.y),
@@ -79,7 +80,7 @@ auto direction(Ray ray, int) -> decltype(static_cast<void>(ray.GetRayDirection()
 }
 
 template <class Vector>
-Triple direction(const Vector& v, long) {
+auto direction(const Vector& v, long) -> decltype(to_triple(v, 0)) {
     return to_triple(v, 0);
 }
 

@@ -71,43 +71,26 @@ inline std::uint32_t high_half(std::uint64_t number) {
     return static_cast<std::uint32_t>(number >> 32);
 }
 
-class Stream {
+// One stream of numbers at a time. `photon-mapping check` draws from it, too.
+class ChaCha {
 public:
-    Stream()
-        : seed_(0), number_(0), block_(0), used_(words_per_block), selected_(false),
-          is_warned_(false) {}
+    ChaCha() : seed_(0), number_(0), block_(0), used_(words_per_block) {}
 
     void select(std::uint64_t seed, std::uint64_t number) {
-        if (selected_ && block_ == 0 && !is_warned_) {
-            // Going on silently would give a plausible picture that agrees with nothing.
-            std::fprintf(stderr,
-                         "reference_rand: photon %llu drew no number here: glm::linearRand, <random> "
-                         "and other files draw from elsewhere\n",
-                         static_cast<unsigned long long>(number_));
-            is_warned_ = true;
-        }
-        photon_numbers::drawn().is_counted = true;
-        photon_numbers::drawn().numbers = 0;
         seed_ = seed;
         number_ = number;
         block_ = 0;
         used_ = words_per_block;
-        selected_ = true;
     }
 
+    std::uint64_t number() const { return number_; }
+    bool has_drawn() const { return block_ != 0; }
+
     std::uint32_t next_word() {
-        if (!selected_) {
-            // Going on silently would give a plausible picture that agrees with nothing.
-            std::fprintf(stderr,
-                         "reference_rand: a number was drawn on this thread before begin_photon(); "
-                         "using photon 0 of seed 0\n");
-            selected_ = true;
-        }
         if (used_ == words_per_block) {
             fill_block();
             used_ = 0;
         }
-        ++photon_numbers::drawn().numbers;
         return words_[used_++];
     }
 
@@ -158,9 +141,45 @@ private:
     std::uint64_t number_;
     std::uint64_t block_;
     int used_;
-    bool selected_;
-    bool is_warned_;
     std::uint32_t words_[words_per_block];
+};
+
+// The numbers of a photon, with a complaint where they are not what a student expects.
+class Stream {
+public:
+    Stream() : is_selected_(false), is_warned_(false) {}
+
+    void select(std::uint64_t seed, std::uint64_t number) {
+        if (is_selected_ && !numbers_.has_drawn() && !is_warned_) {
+            // Going on silently would give a plausible picture that agrees with nothing.
+            std::fprintf(stderr,
+                         "reference_rand: photon %llu drew no number here: glm::linearRand, <random> "
+                         "and other files draw from elsewhere\n",
+                         static_cast<unsigned long long>(numbers_.number()));
+            is_warned_ = true;
+        }
+        photon_numbers::drawn().is_counted = true;
+        photon_numbers::drawn().numbers = 0;
+        numbers_.select(seed, number);
+        is_selected_ = true;
+    }
+
+    std::uint32_t next_word() {
+        if (!is_selected_) {
+            // Going on silently would give a plausible picture that agrees with nothing.
+            std::fprintf(stderr,
+                         "reference_rand: a number was drawn on this thread before begin_photon(); "
+                         "using photon 0 of seed 0\n");
+            is_selected_ = true;
+        }
+        ++photon_numbers::drawn().numbers;
+        return numbers_.next_word();
+    }
+
+private:
+    ChaCha numbers_;
+    bool is_selected_;
+    bool is_warned_;
 };
 
 // One stream per thread: rand() takes no argument, so it must find the current photon by itself,

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use compare::differences::Differences;
 use compare::report::{Outcome, compare, scene_size};
+use grading::text::printable;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8;
@@ -115,11 +116,10 @@ fn remarks(observed: &Observed) -> Vec<String> {
     if observed.printed_bytes > 0 {
         let first: String =
             observed.printed.lines().next().unwrap_or_default().chars().take(60).collect();
-        let first: String =
-            first.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
         remarks.push(format!(
-            "it prints {} bytes, which start with \"{first}\"",
-            observed.printed_bytes
+            "it prints {} bytes, which start with \"{}\"",
+            observed.printed_bytes,
+            printable(&first)
         ));
     }
     if has(Notice::NotGuarded) {

@@ -16,7 +16,7 @@ use crate::find::{
 use crate::foreign::{file_directive, take_headers};
 use crate::headers::Headers;
 use crate::kit::{Kit, write};
-use crate::sandbox::{BUSY, Exit, Limits, Program, RunOutcome, search_path};
+use crate::sandbox::{Exit, Limits, Program, RunOutcome, on_clock, search_path};
 
 /// The framework's standard first; the other for those whose compiler let them use more. This
 /// name of C++20 is the one that older compilers know, too.
@@ -217,20 +217,6 @@ impl<'kit> Workshop<'kit> {
         }
     }
 
-    /// The object file of `assembly`, or what is wrong with it.
-    fn assemble(&self, assembly: &Path) -> Result<Result<PathBuf, String>, CheckError> {
-        let object = assembly.with_extension("o");
-        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into(), "-c".into()];
-        command.extend([assembly.into(), "-o".into(), object.clone().into()]);
-        let outcome = self.run(command)?;
-        if outcome.ending == Exit::Code(0) {
-            return Ok(Ok(object));
-        }
-        let errors = outcome.printed.lines().filter_map(|line| line.split_once("rror: "));
-        let error = errors.map(|(_, error)| error.trim()).next().unwrap_or("unknown");
-        Ok(Err(format!("its assembler code is wrong: {error}")))
-    }
-
     /// Writes the headers that `attempt` lacks, or empties one that does not fit; whether there is
     /// any.
     fn change_headers(&self, attempt: &Invocation<'_>, printed: &str) -> Result<bool, CheckError> {
@@ -290,7 +276,7 @@ impl<'kit> Workshop<'kit> {
     }
 
     pub(crate) fn run(&self, command: Vec<OsString>) -> Result<RunOutcome, CheckError> {
-        let (processor, time) = (self.time, BUSY * self.time);
+        let (processor, time) = (self.time, on_clock(self.time));
         let limits = Limits { time, processor, memory: MEMORY, file_blocks: 1 << 19 };
         let mut outcome = self.program(command).run(limits, |_| Some(time))?;
         // The compiler says so of the process that it started.

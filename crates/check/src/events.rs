@@ -127,6 +127,8 @@ pub struct Log {
     pub is_complete: bool,
     /// Whether the stack overflowed.
     pub stack_overflowed: bool,
+    /// Whether it crashed with its memory used up.
+    pub memory_ran_out: bool,
     /// Whether what was told makes no sense.
     pub is_broken: bool,
 }

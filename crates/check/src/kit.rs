@@ -33,6 +33,9 @@ const ASSETS: &[(&str, &str)] = assets![
     "harness/recorder.cpp",
     "harness/recorder.hpp",
     "harness/scene.cpp",
+    // Those that people plug into the framework themselves, by links to `interop/cpp`.
+    "standin/photon_dump.hpp",
+    "standin/reference_rand.hpp",
     "standin/common/common.h",
     "standin/common/core.h",
     "standin/common/Intersection/IntersectionState.h",
@@ -136,8 +139,7 @@ impl Kit {
     }
 }
 
-/// Removes the folders in `parent` that were left by processes of this user that were killed: nobody
-/// locks them.
+/// Removes the folders in `parent` that killed processes of this user left: nobody locks them.
 fn remove_abandoned(parent: &Path) {
     let user = rustix::process::geteuid().as_raw();
     for entry in fs::read_dir(parent).into_iter().flatten().flatten() {

@@ -26,6 +26,7 @@ pub mod sandbox;
 pub mod sections;
 pub mod statistics;
 pub mod text;
+pub mod wall;
 
 pub use checking::{CheckSettings, check};
 pub use report::CheckReport;

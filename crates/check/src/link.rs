@@ -1,9 +1,10 @@
-//! Linking a submission: with sources of its own besides the two, where they are needed.
+//! Assembling and linking a submission: with sources of its own besides the two, where they are
+//! needed.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::compile::Workshop;
 use crate::diagnostics::{
@@ -17,6 +18,20 @@ use crate::sandbox::Exit;
 const MOST_SOURCES: usize = 20;
 
 impl Workshop<'_> {
+    /// The object file of `assembly`, or what is wrong with it.
+    pub(crate) fn assemble(&self, assembly: &Path) -> Result<Result<PathBuf, String>, CheckError> {
+        let object = assembly.with_extension("o");
+        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into(), "-c".into()];
+        command.extend([assembly.into(), "-o".into(), object.clone().into()]);
+        let outcome = self.run(command)?;
+        if outcome.ending == Exit::Code(0) {
+            return Ok(Ok(object));
+        }
+        let errors = outcome.printed.lines().filter_map(|line| line.split_once("rror: "));
+        let error = errors.map(|(_, error)| error.trim()).next().unwrap_or("unknown");
+        Ok(Err(format!("its assembler code is wrong: {error}")))
+    }
+
     /// The sources beside the student's headers in a list of dependencies.
     pub(crate) fn sources_of(&self, list: &str) -> BTreeSet<PathBuf> {
         let paths = paths_of_list(list).into_iter().map(PathBuf::from);

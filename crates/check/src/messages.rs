@@ -1,6 +1,7 @@
 //! Reads what the harness tells, message by message; see `assets/harness/recorder.hpp`.
 
 use glam::Vec3;
+use grading::text::printable;
 use photon_mapping::photon_list::{PhotonRecord, ROW_BYTES};
 
 use crate::events::{Call, Log, Notice, StepLog, Stored, Trace};
@@ -98,7 +99,8 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
         b'X' => {
             let length = rest.u16()? as usize;
             let text = String::from_utf8_lossy(rest.take(length)?).into_owned();
-            call(log).exception = Some(text);
+            // A line of its own could read as another's report.
+            call(log).exception = Some(printable(&text));
         }
         b'W' => {
             let row = rest.take(ROW_BYTES)?;
@@ -125,6 +127,7 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
             });
         }
         b'O' => log.stack_overflowed = true,
+        b'M' => log.memory_ran_out = true,
         b'Q' => step(log).ended = true,
         b'Z' => log.is_complete = true,
         _ => log.is_broken = true,

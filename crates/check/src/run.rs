@@ -12,7 +12,7 @@ use crate::events::Log;
 use crate::kit::write;
 use crate::messages::Reader;
 use crate::plan::{self, PlanStep};
-use crate::sandbox::{BUSY, Exit, Limits, MOST_BYTES, Program, RunOutcome};
+use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome, on_clock};
 
 /// The processor time of a step with a small scene. It needs a thousandth of it.
 const PATIENCE: Duration = Duration::from_secs(3);
@@ -44,6 +44,8 @@ pub enum Death {
     },
     /// The stack overflowed.
     StackOverflow,
+    /// It crashed with its memory used up.
+    Memory,
     /// It printed too much.
     TooMuchOutput,
     /// It wrote to the pipe of the recorder.
@@ -92,9 +94,8 @@ impl Death {
                 format!("prints more than {} MB, and is ended", MOST_BYTES >> 20)
             }
             Self::Forged => "writes to the pipe that records what it does, and is ended".to_owned(),
-            Self::Exception { what } if what.contains("bad_alloc") => {
-                format!("uses more than {MEMORY} MB of memory")
-            }
+            Self::Memory => format!("uses more than {MEMORY} MB of memory"),
+            Self::Exception { what } if what.contains("bad_alloc") => Self::Memory.sentence(),
             Self::Exception { what } => format!("throws an exception: {what}"),
             Self::LeftOut => "was not called, since earlier calls did not end well".to_owned(),
         }
@@ -160,6 +161,7 @@ pub fn run(
     while first < steps.len() {
         observed.log.current = None;
         observed.log.stack_overflowed = false;
+        observed.log.memory_ran_out = false;
         let has_waited = observed.deaths.iter().flatten().any(Death::is_time_out);
         let small = PATIENCE.min(time);
         // Whoever has waited for an endless loop already waits no longer for the whole.
@@ -247,7 +249,7 @@ fn run_from(
         environment: Vec::new(),
         writes: false,
     };
-    let time = BUSY * (times.small + times.whole);
+    let time = on_clock(times.small) + on_clock(times.whole);
     // The harness itself counts the processor time of each step.
     let limits = Limits { time, processor: time, memory: MEMORY, file_blocks: 0 };
     let mut reader = Reader::default();
@@ -262,7 +264,7 @@ fn run_from(
         if log.current != last_step {
             (last_step, step_started) = (log.current, Instant::now());
         }
-        Some((BUSY * times.of(log)).saturating_sub(step_started.elapsed()))
+        Some(on_clock(times.of(log)).saturating_sub(step_started.elapsed()))
     })
 }
 
@@ -274,8 +276,11 @@ fn death_of(outcome: &RunOutcome, log: &Log, time: Duration) -> Death {
     if log.stack_overflowed {
         return Death::StackOverflow;
     }
+    if log.memory_ran_out {
+        return Death::Memory;
+    }
     match outcome.ending {
-        Exit::TimeOut => Death::TimeOut { seconds: (BUSY * time).as_secs() },
+        Exit::TimeOut => Death::TimeOut { seconds: on_clock(time).as_secs() },
         Exit::Signal(SIGPROF) => Death::TimeOut { seconds: time.as_secs() },
         Exit::TooMuchOutput => Death::TooMuchOutput,
         Exit::Code(code) => Death::Exit { code },

@@ -3,31 +3,32 @@
 //! Every program gets an empty environment, no standard input, limits of time, memory and file
 //! size, and a process group of its own that ends with it. The limits are set by the shell's
 //! `ulimit`, which every POSIX system has: Rust can set them only in unsafe code, or after the
-//! program has started. Where bubblewrap works, the program sees the file system read-only, has no
-//! network and a process space of its own. The harness adds a filter of system calls on Linux; see
-//! `assets/harness/guard.cpp`.
+//! program has started. Where the system has one, there is a [`Wall`]. The harness adds a filter of
+//! system calls on Linux; see `assets/harness/guard.cpp`.
 
 use std::ffi::OsString;
 use std::io::Read;
 use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
 use crate::error::CheckError;
+use crate::wall::{BUBBLEWRAP, UNSHARE, Wall, wall};
 
 /// So much of what a program prints is kept.
 const MOST_PRINTED: usize = 1 << 20;
 /// A program that prints more than this is ended.
 pub(crate) const MOST_BYTES: u64 = 32 << 20;
 
-/// So many times its processor time may a program take on the clock: a busy machine must not make
-/// it fail.
-pub(crate) const BUSY: u32 = 5;
+/// How long what may use `processor` time may take on the clock: a busy machine must not make it
+/// fail.
+pub(crate) fn on_clock(processor: Duration) -> Duration {
+    (5 * processor).max(Duration::from_secs(60))
+}
 
 /// The limits of one program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,35 +81,12 @@ pub struct Program {
     pub writes: bool,
 }
 
-/// Whether bubblewrap is there and allowed to work.
-pub fn has_bubblewrap() -> bool {
-    static WORKS: OnceLock<bool> = OnceLock::new();
-    *WORKS.get_or_init(|| {
-        Command::new("bwrap")
-            .args([
-                "--ro-bind",
-                "/",
-                "/",
-                "--dev",
-                "/dev",
-                "--proc",
-                "/proc",
-                "--unshare-all",
-                "true",
-            ])
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .status()
-            .is_ok_and(|status| status.success())
-    })
-}
-
 /// What the shell does before the program: sets the limits, gives the pipe of standard output the
 /// number 3, and lets what is printed go where errors go. A limit that the system does not know is
 /// passed over.
 const SHELL: &str =
-    "{ ulimit -H -t $(($1 + 2)); ulimit -S -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0; ulimit -s 65536; } 2>/dev/null
+    "{ ulimit -H -t $(($1 + 2)); ulimit -S -t $1; ulimit -v $2; ulimit -f $3; ulimit -c 0
+ulimit -s 65536; } 2>/dev/null
 shift 3
 exec \"$@\" 3>&1 1>&2 </dev/null";
 
@@ -119,11 +97,13 @@ impl Program {
         command.arg(limits.processor.as_secs().max(1).to_string());
         command.arg((limits.memory << 10).to_string());
         command.arg(limits.file_blocks.to_string());
-        if has_bubblewrap() {
-            command.args(["bwrap", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc"]);
-            command.arg(if self.writes { "--bind" } else { "--ro-bind" });
-            command.arg(&self.folder).arg(&self.folder);
-            command.args(["--unshare-all", "--die-with-parent", "--chdir"]).arg(&self.folder);
+        match wall() {
+            Wall::Bubblewrap => {
+                command.args(BUBBLEWRAP).arg(if self.writes { "--bind" } else { "--ro-bind" });
+                command.args([&self.folder, &self.folder]).arg("--chdir").arg(&self.folder);
+            }
+            Wall::Unshare if !self.writes => drop(command.args(UNSHARE)),
+            Wall::Unshare | Wall::None => {}
         }
         command.args(&self.command);
         command.env_clear().envs(self.environment.iter().map(|(name, value)| (name, value)));
@@ -186,7 +166,7 @@ impl Program {
             let closed = Instant::now();
             while status.is_none() {
                 status = child.try_wait().map_err(CheckError::io("sh"))?;
-                if status.is_none() && closed.elapsed() > Duration::from_secs(1) {
+                if status.is_none() && closed.elapsed() > Duration::from_secs(5) {
                     break;
                 }
                 if status.is_none() {

@@ -1,6 +1,5 @@
 //! `photon-mapping check`: compiles and runs the two C++ files of a submission, section by section.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -8,7 +7,7 @@ use std::time::Duration;
 
 use check::find::{CppSubmission, refuse_class};
 use check::kit::Kit;
-use check::sandbox::has_bubblewrap;
+use check::wall::{Wall, wall};
 use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use classroom::gradescope;
@@ -23,6 +22,7 @@ use rayon::prelude::*;
 use super::error::{CliError, print_whole};
 use super::grade::{INDEX, json, made_by, places_of_each};
 use super::gradebook::{GradebookArgs, Roll};
+use super::in_order::InOrder;
 use super::output::{OutputFile, protect, write};
 use super::{progress, values};
 
@@ -52,7 +52,7 @@ pub struct CheckArgs {
     #[arg(long)]
     class: bool,
     /// Processor time for each file to compile, and for the whole run, in seconds. Each probe of a
-    /// section has 3 seconds. On the clock, everything has five times as long
+    /// section has 3 seconds. On the clock, each has five times as long, and a minute at least
     #[arg(long, value_name = "SECONDS", default_value = "60",
           value_parser = values::whole(1_u64, 3600))]
     timeout: u64,
@@ -142,10 +142,10 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     for submission in found.iter().flatten() {
         protect(submission.light.iter().chain(&submission.renderer).chain(&submission.headers));
     }
-    if !has_bubblewrap() {
+    if wall() == Wall::None {
         super::complain(
-            "note: bubblewrap is not installed or does not work here, so submissions can read \
-             files of this account",
+            "note: neither bubblewrap nor unshare works here, so nothing but a filter of system \
+             calls keeps submissions from the network and from other processes",
         );
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
@@ -242,30 +242,6 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         (None, None) => print_whole(&together())?,
     }
     Ok(if problems.is_empty() { 0 } else { super::FAILED })
-}
-
-/// Prints reports as they come, each after those before it.
-#[derive(Default)]
-struct InOrder {
-    next: usize,
-    has_printed: bool,
-    /// Those that wait for others; nothing for a submission that could not be checked.
-    waiting: BTreeMap<usize, Option<String>>,
-    /// Why nothing can be printed any more.
-    problem: Option<CliError>,
-}
-
-impl InOrder {
-    fn print(&mut self, at: usize, text: Option<String>) {
-        self.waiting.insert(at, text);
-        while let Some(text) = self.waiting.remove(&self.next) {
-            self.next += 1;
-            let Some(text) = text.filter(|_| self.problem.is_none()) else { continue };
-            let gap = if self.has_printed { "\n" } else { "" };
-            self.has_printed = true;
-            self.problem = print_whole(&format!("{gap}{text}")).err();
-        }
-    }
 }
 
 fn text_of(checked: &Checked, policy: &Policy) -> String {

@@ -14,6 +14,8 @@ mod explore;
 mod export;
 mod grade;
 mod gradebook;
+#[cfg(unix)]
+mod in_order;
 mod input;
 mod kit;
 mod merge;

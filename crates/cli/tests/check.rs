@@ -4,7 +4,10 @@
 mod support;
 
 use std::fs;
+use std::io::{BufRead as _, BufReader, Read as _};
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
+use std::process::Stdio;
 
 use support::{fails, folder, json, program, run_line, stdout};
 
@@ -169,6 +172,45 @@ fn what_cannot_be_written_costs_no_other_its_page() {
     let empty = folder.path().join("empty");
     fs::create_dir(&empty).expect("can be made");
     fails("check --class {}", &[&empty], &["empty", "found none"]);
+}
+
+/// The second submission compiles only when the report on the first is out.
+#[test]
+fn reports_are_printed_as_they_come() {
+    let folder = folder();
+    let (class, go) = (folder.path().join("class"), folder.path().join("go"));
+    broken(&class, "amy");
+    let bob = broken(&class, "bob").join("PhotonMappingRenderer.cpp");
+    fs::write(bob, "#error bob waits\n").expect("can be written");
+    let compiler = folder.path().join("compiler");
+    let script = format!(
+        "#!/bin/sh\nfor last; do :; done\n\
+         if grep -q waits \"$last\" 2>/dev/null; then\n\
+         i=0; while [ $i -lt 200 ] && ! [ -e {0} ]; do sleep 0.1; i=$((i + 1)); done\n\
+         [ -e {0} ] || {{ echo \"$last:1:1: error: in vain\" >&2; exit 1; }}\nfi\n\
+         exec c++ \"$@\"\n",
+        go.display()
+    );
+    fs::write(&compiler, script).expect("can be written");
+    fs::set_permissions(&compiler, fs::Permissions::from_mode(0o755)).expect("can be changed");
+    let mut child = program(folder.path())
+        .args(["check", "--class", "class"])
+        .env("CXX", &compiler)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it runs");
+    let mut output = BufReader::new(child.stdout.take().expect("it is piped"));
+    let mut text = String::new();
+    output.read_line(&mut text).expect("a line");
+    fs::write(&go, "").expect("can be written");
+    output.read_to_string(&mut text).expect("text");
+    let ended = child.wait_with_output().expect("it ends");
+    if lacks_compiler(&String::from_utf8_lossy(&ended.stderr)) {
+        return;
+    }
+    assert!(text.starts_with("amy: unreadable") && text.contains("\n\nbob: unreadable"), "{text}");
+    assert!(text.contains("#error bob waits"), "{text}");
 }
 
 /// As [`fails`], whatever notes come before.

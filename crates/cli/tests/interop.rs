@@ -356,9 +356,8 @@ const WITHOUT_PHOTONS: [(&str, &str, Result<&str, &str>); 12] = [
     (
         "--reading literal --offset-normal 0 --offset-back 6.7e-3",
         "1000000",
-        Ok(
-            "t and b to the letter of the handout, not normalized, offset 6.7e-3 back along the ray",
-        ),
+        Ok("t and b to the letter of the handout, not normalized, offset 6.7e-3 back along \
+            the ray"),
     ),
     ("--mistake transposed-twice", "1000000", Err("Hemisphere Ray Transformation")),
     (

@@ -19,6 +19,22 @@ char* top_of_stack = nullptr;
 bool is_guarded = false;
 int plan = -1;
 
+// Whoever does not ask whether malloc() gave memory crashes where there is none left.
+bool memory_is_used_up() {
+    rlimit limit;
+    rusage used;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+        getrusage(RUSAGE_SELF, &used) != 0) {
+        return false;
+    }
+#ifdef __APPLE__
+    const rlim_t bytes = static_cast<rlim_t>(used.ru_maxrss);
+#else
+    const rlim_t bytes = static_cast<rlim_t>(used.ru_maxrss) * 1024;
+#endif
+    return bytes > limit.rlim_cur / 4 * 3;
+}
+
 // A stack that overflowed cannot run this handler, so it has a stack of its own.
 void on_segmentation_fault(int, siginfo_t* about, void*) {
     const char* const at = static_cast<const char*>(about->si_addr);
@@ -29,6 +45,8 @@ void on_segmentation_fault(int, siginfo_t* about, void*) {
     const std::size_t margin = 1u << 20;
     if (at < top_of_stack && at + size + margin > top_of_stack) {
         photon_check::stack_overflowed();
+    } else if (memory_is_used_up()) {
+        photon_check::memory_ran_out();
     }
     std::signal(SIGSEGV, SIG_DFL);
     std::raise(SIGSEGV);
@@ -193,7 +211,8 @@ void guard(int argc, char** argv, char**) {
         SYS_bind,     SYS_unlinkat,     SYS_renameat2, SYS_mkdirat,    SYS_linkat,
         SYS_symlinkat, SYS_fchmod,      SYS_fchmodat,  SYS_fchown,     SYS_fchownat,
         SYS_mknodat,  SYS_truncate,     SYS_ptrace,    SYS_process_vm_writev, SYS_setsid,
-        SYS_process_vm_readv, SYS_open_by_handle_at, SYS_setpgid,  SYS_setrlimit,    SYS_unshare,   SYS_setns,      SYS_mount,
+        SYS_process_vm_readv, SYS_open_by_handle_at,
+        SYS_setpgid,  SYS_setrlimit,    SYS_unshare,   SYS_setns,      SYS_mount,
         SYS_tkill,    SYS_rt_sigqueueinfo, SYS_utimensat, SYS_setxattr, SYS_io_setup,
         SYS_shmget,   SYS_msgget,       SYS_mq_open,
 #ifdef SYS_renameat

@@ -2,10 +2,6 @@
 //
 // A function that the program itself has takes precedence over the C library's. So rand(),
 // std::rand, function pointers and glm's helpers all end here, and no file is changed.
-//
-// The generator is ChaCha with 8 rounds: the quarter round of RFC 8439 (section 2.1) and the state
-// layout of D. J. Bernstein, "ChaCha, a variant of Salsa20" (2008), with a 64-bit block counter and
-// a 64-bit stream number. The key is the seed, the stream is the photon's number.
 
 #include <cstdlib>
 #include <ctime>
@@ -14,6 +10,7 @@
 #include <unistd.h>
 
 #include "recorder.hpp"
+#include "reference_rand.hpp"
 
 #ifdef __GLIBC__
 #define NO_THROW noexcept
@@ -25,76 +22,31 @@ namespace photon_check {
 namespace {
 
 struct Numbers {
-    std::uint64_t seed;
-    std::uint64_t photon;
-    std::uint64_t block;
-    unsigned next;
-    std::uint32_t words[16];
+    Numbers() : scripted(nullptr), scripted_left(0), drawn(0) {
+        // What is drawn before any photon, as in a static constructor, comes from the last stream.
+        stream.select(148, ~0ull);
+    }
+
+    reference_rand::detail::ChaCha stream;
     const std::uint32_t* scripted;
     std::size_t scripted_left;
     std::uint64_t drawn;
 };
 
-// What is drawn before any photon, as in a static constructor, comes from the last stream.
-Numbers numbers = {148, ~0ull, 0, 16, {}, nullptr, 0, 0};
-
-std::uint32_t rotate_left(std::uint32_t word, int bits) {
-    return (word << bits) | (word >> (32 - bits));
-}
-
-void quarter_round(std::uint32_t& a, std::uint32_t& b, std::uint32_t& c, std::uint32_t& d) {
-    a += b;
-    d = rotate_left(d ^ a, 16);
-    c += d;
-    b = rotate_left(b ^ c, 12);
-    a += b;
-    d = rotate_left(d ^ a, 8);
-    c += d;
-    b = rotate_left(b ^ c, 7);
-}
-
-std::uint32_t low(std::uint64_t number) { return static_cast<std::uint32_t>(number); }
-std::uint32_t high(std::uint64_t number) { return static_cast<std::uint32_t>(number >> 32); }
-
-void next_block() {
-    const std::uint32_t input[16] = {
-        0x61707865u, 0x3320646eu, 0x79622d32u, 0x6b206574u, low(numbers.seed), high(numbers.seed),
-        0, 0, 0, 0, 0, 0,
-        low(numbers.block), high(numbers.block), low(numbers.photon), high(numbers.photon)};
-    std::uint32_t w[16];
-    for (int i = 0; i < 16; ++i) {
-        w[i] = input[i];
-    }
-    for (int two_rounds = 0; two_rounds < 4; ++two_rounds) {
-        for (int i = 0; i < 4; ++i) {
-            quarter_round(w[i], w[4 + i], w[8 + i], w[12 + i]);
-        }
-        for (int i = 0; i < 4; ++i) {
-            quarter_round(w[i], w[4 + (i + 1) % 4], w[8 + (i + 2) % 4], w[12 + (i + 3) % 4]);
-        }
-    }
-    for (int i = 0; i < 16; ++i) {
-        numbers.words[i] = w[i] + input[i];
-    }
-    ++numbers.block;
-    numbers.next = 0;
-}
-
-std::uint32_t next_word() {
-    if (numbers.next == 16) {
-        next_block();
-    }
-    return numbers.words[numbers.next++];
+Numbers& numbers() {
+    static Numbers of_program;
+    return of_program;
 }
 
 // The next number in units of 2^-31, of which the last seven bits are no part of the reference's.
 std::uint32_t draw() {
-    ++numbers.drawn;
-    if (numbers.scripted_left > 0) {
-        --numbers.scripted_left;
-        return *numbers.scripted++ << 7;
+    Numbers& all = numbers();
+    ++all.drawn;
+    if (all.scripted_left > 0) {
+        --all.scripted_left;
+        return *all.scripted++ << 7;
     }
-    const std::uint32_t word = next_word();
+    const std::uint32_t word = all.stream.next_word();
     // Six bits more, for those who take the remainder, as in rand() % 100. With them, a float still
     // does not round up to 1.
     return (word >> 8 << 7) | (word & 63);
@@ -108,15 +60,13 @@ double draw_double() { return (draw() >> 7) / 16777216.0; }
 
 void begin_numbers(std::uint64_t seed, std::uint64_t photon, const std::uint32_t* scripted,
                    std::size_t count) {
-    numbers.seed = seed;
-    numbers.photon = photon;
-    numbers.block = 0;
-    numbers.next = 16;
-    numbers.scripted = scripted;
-    numbers.scripted_left = count;
+    Numbers& all = numbers();
+    all.stream.select(seed, photon);
+    all.scripted = scripted;
+    all.scripted_left = count;
 }
 
-std::uint64_t numbers_drawn() { return numbers.drawn; }
+std::uint64_t numbers_drawn() { return numbers().drawn; }
 
 } // namespace photon_check
 
@@ -164,6 +114,6 @@ void std::random_device::_M_init(const std::string&) {}
 void std::random_device::_M_fini() {}
 std::random_device::result_type std::random_device::_M_getval() {
     notice(photon_check::random_device_read);
-    return photon_check::next_word();
+    return photon_check::numbers().stream.next_word();
 }
 #endif

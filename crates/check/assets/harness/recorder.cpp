@@ -73,6 +73,14 @@ void write_head(char* to, std::size_t size) {
     std::memcpy(to + sizeof key, &length, sizeof length);
 }
 
+// From a signal handler, which must not touch the buffer.
+void tell_at_once(char letter) {
+    char piece[head_size + 1];
+    write_head(piece, 1);
+    piece[head_size] = letter;
+    write_all(piece, sizeof piece);
+}
+
 } // namespace
 
 void open_pipe() {
@@ -101,12 +109,8 @@ void flush() {
     }
 }
 
-void stack_overflowed() {
-    char piece[head_size + 1];
-    write_head(piece, 1);
-    piece[head_size] = 'O';
-    write_all(piece, sizeof piece);
-}
+void stack_overflowed() { tell_at_once('O'); }
+void memory_ran_out() { tell_at_once('M'); }
 
 void set_mode(Mode new_mode) {
     mode = new_mode;

@@ -19,6 +19,7 @@
 //   U                the submission's functions have another signature; the step is left out
 //   S u8             something worth saying happened for the first time; see Notice
 //   O                the stack overflowed
+//   M                the program crashes with its memory used up
 //   Q                the step ended
 //   Z                all steps ended
 #pragma once
@@ -65,8 +66,9 @@ void flush();
 
 // Moves the pipe from file descriptor 3 to a random one. Nothing happens the second time.
 void open_pipe();
-// Tells it from a signal handler.
+// Tell it from a signal handler.
 void stack_overflowed();
+void memory_ran_out();
 
 // The photon of the whole run that is traced from here on.
 void begin_photon(std::uint64_t number);

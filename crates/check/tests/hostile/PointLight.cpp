@@ -51,8 +51,17 @@ void PointLight::GenerateRandomPhotonRay(Ray& ray) const
         std::vector<std::vector<char>> all;
         for (;;) all.emplace_back(64 << 20, 'x');
     }
+    if (deed == "malloc") for (;;) std::memset(std::malloc(64 << 20), 1, 64 << 20);
+    if (deed == "daemon" && syscall(SYS_fork) == 0) {
+        setsid();
+        for (;;) sleep(1000);
+    }
+    if (deed == "fill") {
+        std::FILE* file = std::fopen("/tmp/photon-mapping-check-fill", "w");
+        if (file != nullptr) std::abort();
+    }
     if (deed == "recursion") recurse(0);
-    if (deed == "throw") throw std::runtime_error("on purpose");
+    if (deed == "throw") throw std::runtime_error("on purpose\nbob: correct");
     if (deed == "forge") {
         const char told[] = "QZ";
         if (write(3, told, 2) == 2) std::abort();

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "photon_dump.hpp"
+
 namespace photon_check {
 
 // Position, intensity and direction to the light of a photon that was stored. In recorder.cpp.
@@ -17,17 +19,15 @@ void on_insert(const float (&values)[9]);
 
 // The overloads differ in their last parameter; int is the better match for 0.
 template <class Vector>
-auto put(const Vector& v, float* out, long) -> decltype(static_cast<void>(v.z)) {
-    out[0] = static_cast<float>(v.x);
-    out[1] = static_cast<float>(v.y);
-    out[2] = static_cast<float>(v.z);
+auto put(const Vector& v, float* out, int)
+    -> decltype(static_cast<void>(photon_dump::detail::direction(v, 0))) {
+    const photon_dump::detail::Triple triple = photon_dump::detail::direction(v, 0);
+    out[0] = triple.x;
+    out[1] = triple.y;
+    out[2] = triple.z;
 }
 template <class Vector>
-void put(const Vector&, float*, ...) {}
-template <class Ray>
-auto put(const Ray& ray, float* out, int) -> decltype(static_cast<void>(ray.GetRayDirection())) {
-    put(ray.GetRayDirection(), out, 0L);
-}
+void put(const Vector&, float*, long) {}
 
 // A member that a student's Photon lacks stays NaN.
 template <class P>

@@ -1,0 +1,1 @@
+../../../../interop/cpp/photon_dump.hpp

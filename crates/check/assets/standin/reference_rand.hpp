@@ -1,0 +1,1 @@
+../../../../interop/cpp/reference_rand.hpp
