@@ -333,7 +333,7 @@ fn files_that_were_not_handed_in_are_not_read() {
         let report = check(&submission, kit, &settings).expect("it can be checked");
         let Builds::No(error) = &report.builds else { panic!("{first} builds: {report:?}") };
         assert!(!format!("{report:?}").contains("hunter2"), "{first}: {report:?}");
-        let is_told = ["not handed in", "assembler code", "nonsense"];
+        let is_told = ["not handed in", "assembler code", "nonsense", "not supported"];
         assert!(is_told.iter().any(|words| error.message.contains(words)), "{first}: {error:?}");
     }
 }
