@@ -21,6 +21,8 @@ use crate::sandbox::{Exit, Limits, Program, RunOutcome, on_clock, search_path};
 /// The framework's standard first; the other for those whose compiler let them use more. This
 /// name of C++20 is the one that older compilers know, too.
 const STANDARDS: [&str; 2] = ["-std=gnu++11", "-std=gnu++2a"];
+/// The signal for processor time that is used up.
+const SIGXCPU: i32 = 24;
 /// The compiler's memory, in MiB.
 const MEMORY: u64 = 3 << 10;
 
@@ -279,8 +281,9 @@ impl<'kit> Workshop<'kit> {
         let (processor, time) = (self.time, on_clock(self.time));
         let limits = Limits { time, processor, memory: MEMORY, file_blocks: 1 << 19 };
         let mut outcome = self.program(command).run(limits, |_| Some(time))?;
-        // The compiler says so of the process that it started.
-        if outcome.printed.to_lowercase().contains("time limit exceeded") {
+        // GCC says so of the process that it started; clang crashes.
+        let is_signal = outcome.ending == Exit::Signal(SIGXCPU);
+        if is_signal || outcome.printed.to_lowercase().contains("time limit exceeded") {
             outcome.ending = Exit::TimeOut;
         }
         Ok(outcome)
