@@ -85,7 +85,7 @@ pub(super) fn sampling() -> Vec<Entry> {
             section,
             disk,
             [(
-                "directions are the normal and a point of the unit ball",
+                "directions are the normal plus a point of the unit ball",
                 of(Hemisphere::NormalAndBall),
             )],
         ),
@@ -93,7 +93,7 @@ pub(super) fn sampling() -> Vec<Entry> {
             "normal-and-cube",
             section,
             disk,
-            [("directions are the normal and a point of the cube", of(Hemisphere::NormalAndCube))],
+            [("directions are the normal plus a point of the cube", of(Hemisphere::NormalAndCube))],
         ),
         Entry::new(
             "upper-cube",
@@ -108,7 +108,7 @@ pub(super) fn sampling() -> Vec<Entry> {
             [
                 ("directions are even over the whole sphere", of(Hemisphere::Sphere)),
                 (
-                    "directions are the normal and three numbers of the normal law",
+                    "directions are the normal plus three normally distributed numbers",
                     of(Hemisphere::NormalAndGaussian),
                 ),
                 ("the angle to the normal goes up to pi", of(Hemisphere::WholeAngle)),

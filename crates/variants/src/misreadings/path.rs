@@ -19,7 +19,7 @@ pub(super) fn emission() -> Vec<Entry> {
                     "directions from the light come from the whole cube, not the sphere",
                     of(Emission::Cube),
                 ),
-                ("x + y + z is held against 1, without squares", of(Emission::BelowPlane)),
+                ("x + y + z is compared with 1, without squares", of(Emission::BelowPlane)),
             ],
         ),
         Entry::new(
@@ -59,7 +59,7 @@ pub(super) fn emission() -> Vec<Entry> {
         Entry::new(
             "rejection-reversed",
             section,
-            "The loop keeps what it must draw again: repeat WHILE x^2 + y^2 + z^2 > 1.",
+            "The loop keeps the points that it should reject: repeat WHILE x^2 + y^2 + z^2 > 1.",
             [(
                 "directions from the light come from outside the sphere",
                 of(Emission::OutsideSphere),

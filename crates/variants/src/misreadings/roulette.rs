@@ -77,7 +77,7 @@ pub(super) fn roulette() -> Vec<Entry> {
         Entry::new(
             "squared-roulette",
             section,
-            "P_r comes in twice: one number decides, once, whether the photon is scattered.",
+            "P_r is applied twice: one number decides, once, whether the photon is scattered.",
             [("photons survive with the square of P_r", of(Roulette::Squared))],
         ),
         Entry::new(
