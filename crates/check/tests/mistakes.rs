@@ -200,6 +200,66 @@ fn angles_in_degrees_are_told() {
     assert_eq!(faults(&report), expected, "{}", sections_text(&report));
 }
 
+/// The renderer of `one_function`, with numbers of `<random>` from `draw` and this theta, `<math.h>`
+/// included.
+fn with_random(draw: &str, theta: &str) -> [(&'static str, String); 3] {
+    let first = "#include \"common/Rendering/Renderer/Photon/PhotonMappingRenderer.h\"";
+    let draws = format!(
+        "{first}\n#include <random>\n#include <cmath>\nstatic float Draw() {{\n    {draw}\n}}\n"
+    );
+    [
+        (first, draws),
+        ("(float)rand() / RAND_MAX", "Draw()".to_owned()),
+        ("2.f * 3.14159265f * u2", theta.to_owned()),
+    ]
+}
+
+/// One engine for all calls.
+const STATIC_ENGINE: &str = "static std::mt19937 engine(std::random_device{}());
+    static std::uniform_real_distribution<float> uniform(0.f, 1.f);
+    return uniform(engine);";
+/// An engine for every number.
+const NEW_ENGINE: &str = "std::random_device device;
+    std::default_random_engine engine(device());
+    return std::uniform_real_distribution<double>(0., 1.)(engine);";
+/// A new state of a large engine takes longer than all else.
+const NEW_LARGE_ENGINE: &str = "std::random_device device;
+    std::mt19937 engine(device());
+    return std::uniform_real_distribution<float>(0.f, 1.f)(engine);";
+/// No engine at all.
+const DEVICE: &str = "std::random_device device;
+    return std::generate_canonical<double, 53>(device);";
+
+/// The numbers of an engine are unknown: only millions of directions tell.
+#[test]
+fn angles_in_degrees_are_told_whatever_draws_them() {
+    for draw in [STATIC_ENGINE, NEW_ENGINE, DEVICE] {
+        for (theta, words) in [("360 * u2", "360"), ("180.f * u2", "180"), ("-360.0 * u2", "360")] {
+            let changes = with_random(draw, theta);
+            let changes = changes.each_ref().map(|(from, to)| (*from, &**to));
+            let Some(report) = report(&changes) else { return };
+            let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
+            assert_eq!(faults(&report), expected, "{draw}: {}", sections_text(&report));
+            let found = &report.sections[3].faults[0].found;
+            assert!(found.contains(words) && found.contains("looks like degrees"), "{found}");
+        }
+    }
+}
+
+#[test]
+fn angles_in_radians_are_right_whatever_draws_them() {
+    for draw in
+        [STATIC_ENGINE, NEW_ENGINE, NEW_LARGE_ENGINE, DEVICE, "return rand() % 100 / 100.f;"]
+    {
+        for theta in ["2.f * 3.14159265f * u2", "2 * 3.14 * u2", "2 * M_PI * u2"] {
+            let changes = with_random(draw, theta);
+            let changes = changes.each_ref().map(|(from, to)| (*from, &**to));
+            let Some(report) = report(&changes) else { return };
+            assert_eq!(faults(&report), [], "{draw} {theta}: {}", sections_text(&report));
+        }
+    }
+}
+
 /// With pi = 3.14, no photon lands where anyone could see it.
 #[test]
 fn a_short_pi_costs_nothing() {
