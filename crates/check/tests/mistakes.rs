@@ -200,18 +200,25 @@ fn angles_in_degrees_are_told() {
     assert_eq!(faults(&report), expected, "{}", sections_text(&report));
 }
 
-/// The renderer of `one_function`, with numbers of `<random>` from `draw` and this theta, `<math.h>`
-/// included.
-fn with_random(draw: &str, theta: &str) -> [(&'static str, String); 3] {
-    let first = "#include \"common/Rendering/Renderer/Photon/PhotonMappingRenderer.h\"";
-    let draws = format!(
-        "{first}\n#include <random>\n#include <cmath>\nstatic float Draw() {{\n    {draw}\n}}\n"
-    );
-    [
-        (first, draws),
-        ("(float)rand() / RAND_MAX", "Draw()".to_owned()),
-        ("2.f * 3.14159265f * u2", theta.to_owned()),
-    ]
+/// The report on `one_function` with numbers from `draw`, and this theta.
+fn report_with_random(draw: &str, theta: &str) -> Option<CheckReport> {
+    let [light, renderer] = [
+        "#include \"common/Scene/Lights/Point/PointLight.h\"",
+        "#include \"common/Rendering/Renderer/Photon/PhotonMappingRenderer.h\"",
+    ];
+    let define = |include: &str| {
+        format!(
+            "{include}\n#include <cmath>\n#include <random>\nstatic float Draw() {{ {draw} }}\n"
+        )
+    };
+    let report = report(&[
+        (light, &define(light)),
+        (renderer, &define(renderer)),
+        ("(float)rand() / RAND_MAX", "Draw()"),
+        ("2.f * 3.14159265f * u2", theta),
+    ])?;
+    assert_eq!(report.builds, Builds::Yes);
+    Some(report)
 }
 
 /// One engine for all calls.
@@ -235,9 +242,7 @@ const DEVICE: &str = "std::random_device device;
 fn angles_in_degrees_are_told_whatever_draws_them() {
     for draw in [STATIC_ENGINE, NEW_ENGINE, DEVICE] {
         for (theta, words) in [("360 * u2", "360"), ("180.f * u2", "180"), ("-360.0 * u2", "360")] {
-            let changes = with_random(draw, theta);
-            let changes = changes.each_ref().map(|(from, to)| (*from, &**to));
-            let Some(report) = report(&changes) else { return };
+            let Some(report) = report_with_random(draw, theta) else { return };
             let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
             assert_eq!(faults(&report), expected, "{draw}: {}", sections_text(&report));
             let found = &report.sections[3].faults[0].found;
@@ -252,9 +257,7 @@ fn angles_in_radians_are_right_whatever_draws_them() {
         [STATIC_ENGINE, NEW_ENGINE, NEW_LARGE_ENGINE, DEVICE, "return rand() % 100 / 100.f;"]
     {
         for theta in ["2.f * 3.14159265f * u2", "2 * 3.14 * u2", "2 * M_PI * u2"] {
-            let changes = with_random(draw, theta);
-            let changes = changes.each_ref().map(|(from, to)| (*from, &**to));
-            let Some(report) = report(&changes) else { return };
+            let Some(report) = report_with_random(draw, theta) else { return };
             assert_eq!(faults(&report), [], "{draw} {theta}: {}", sections_text(&report));
         }
     }
