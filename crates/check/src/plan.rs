@@ -26,8 +26,8 @@ pub const COLORS: [Vec3; 4] = [
 const FAR: i32 = 1000;
 /// As many calls show every misreading far beyond chance.
 const CALLS: u64 = 4000;
-/// As many calls show what angles in degrees leave: a part in a hundred, eleven standard deviations.
-const CALLS_AROUND: u64 = 2_000_000;
+/// As many calls show what 360 degrees leave: ten standard deviations.
+const CALLS_AROUND: u64 = 1_500_000;
 
 /// One step of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -182,7 +182,6 @@ fn a_law_without_a_name_below_the_surface_is_told_as_both() {
 /// Degrees go around 57 times, which looks even: only the numbers drawn tell.
 #[test]
 fn angles_in_degrees_are_told() {
-    let theta = "2.f * 3.14159265f * u2";
     let loop_begins = "do {";
     let polar = "z = 2.f * ((float)rand() / RAND_MAX) - 1.f;
     sum = 360.f * ((float)rand() / RAND_MAX);
@@ -192,7 +191,7 @@ fn angles_in_degrees_are_told() {
     ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
     return;
     do {";
-    let Some(report) = report(&[(theta, "360 * u2"), (loop_begins, polar)]) else { return };
+    let Some(report) = report(&[(THETA, "360 * u2"), (loop_begins, polar)]) else { return };
     let expected = [
         (Section::PhotonEmission, Some("angle-in-degrees")),
         (Section::HemisphereSampling, Some("angle-in-degrees")),
@@ -200,8 +199,10 @@ fn angles_in_degrees_are_told() {
     assert_eq!(faults(&report), expected, "{}", sections_text(&report));
 }
 
-/// The report on `one_function` with numbers from `draw`, and this theta.
-fn report_with_random(draw: &str, theta: &str) -> Option<CheckReport> {
+const THETA: &str = "2.f * 3.14159265f * u2";
+
+/// The report on `one_function` with numbers from `draw`, and one more change.
+fn report_with_random(draw: &str, change: (&str, &str)) -> Option<CheckReport> {
     let [light, renderer] = [
         "#include \"common/Scene/Lights/Point/PointLight.h\"",
         "#include \"common/Rendering/Renderer/Photon/PhotonMappingRenderer.h\"",
@@ -215,7 +216,7 @@ fn report_with_random(draw: &str, theta: &str) -> Option<CheckReport> {
         (light, &define(light)),
         (renderer, &define(renderer)),
         ("(float)rand() / RAND_MAX", "Draw()"),
-        ("2.f * 3.14159265f * u2", theta),
+        change,
     ])?;
     assert_eq!(report.builds, Builds::Yes);
     Some(report)
@@ -240,27 +241,82 @@ const DEVICE: &str = "std::random_device device;
 /// The numbers of an engine are unknown: only millions of directions tell.
 #[test]
 fn angles_in_degrees_are_told_whatever_draws_them() {
-    for draw in [STATIC_ENGINE, NEW_ENGINE, DEVICE] {
-        for (theta, words) in [("360 * u2", "360"), ("180.f * u2", "180"), ("-360.0 * u2", "360")] {
-            let Some(report) = report_with_random(draw, theta) else { return };
-            let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
-            assert_eq!(faults(&report), expected, "{draw}: {}", sections_text(&report));
-            let found = &report.sections[3].faults[0].found;
-            assert!(found.contains(words) && found.contains("looks like degrees"), "{found}");
-        }
+    let cases = [
+        (STATIC_ENGINE, "360 * u2", "360"),
+        (STATIC_ENGINE, "180.f * u2", "180"),
+        (NEW_ENGINE, "360 * u2", "360"),
+        (NEW_ENGINE, "180 * u2", "180"),
+        (DEVICE, "-360.0 * u2", "360"),
+    ];
+    for (draw, theta, words) in cases {
+        let Some(report) = report_with_random(draw, (THETA, theta)) else { return };
+        let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
+        assert_eq!(faults(&report), expected, "{draw}: {}", sections_text(&report));
+        let found = &report.sections[3].faults[0].found;
+        assert!(found.contains(words) && found.contains("looks like degrees"), "{found}");
     }
+}
+
+/// A large engine made in every call is slow.
+#[test]
+fn angles_in_degrees_are_told_of_engines_made_in_every_call() {
+    let engine = "std::random_device device;
+    std::mt19937 engine(device());
+    std::uniform_real_distribution<float> uniform(0.f, 1.f);
+    const Material* material";
+    let changes = [
+        ("#include <ctime>", "#include <ctime>\n#include <random>"),
+        ("const Material* material", engine),
+        ("if ((float)rand() / RAND_MAX", "if (uniform(engine)"),
+        ("u1 = (float)rand() / RAND_MAX", "u1 = uniform(engine)"),
+        ("u2 = (float)rand() / RAND_MAX", "u2 = uniform(engine)"),
+        ("2.f * 3.14159265f * u2", "360 * u2"),
+    ];
+    let Some(report) = report(&changes) else { return };
+    let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// phi around an axis other than z, beside the right theta.
+#[test]
+fn angles_of_the_light_in_degrees_are_told_whatever_draws_them() {
+    let polar = "y = 2.f * (float)rand() / RAND_MAX - 1.f;
+    sum = 360.f * (float)rand() / RAND_MAX;
+    z = std::sqrt(1.f - y * y) * std::cos(sum);
+    x = std::sqrt(1.f - y * y) * std::sin(sum);
+    ray.SetRayPosition(glm::vec3(GetPosition()));
+    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
+    return;
+    do {";
+    let polar = polar.replace("(float)rand() / RAND_MAX", "Draw()");
+    let Some(report) = report_with_random(STATIC_ENGINE, ("do {", &polar)) else { return };
+    let expected = [(Section::PhotonEmission, Some("angle-in-degrees"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
 }
 
 #[test]
 fn angles_in_radians_are_right_whatever_draws_them() {
-    for draw in
-        [STATIC_ENGINE, NEW_ENGINE, NEW_LARGE_ENGINE, DEVICE, "return rand() % 100 / 100.f;"]
-    {
-        for theta in ["2.f * 3.14159265f * u2", "2 * 3.14 * u2", "2 * M_PI * u2"] {
-            let Some(report) = report_with_random(draw, theta) else { return };
-            assert_eq!(faults(&report), [], "{draw} {theta}: {}", sections_text(&report));
-        }
+    let cases = [
+        (STATIC_ENGINE, "2.f * 3.14159265f * u2"),
+        (STATIC_ENGINE, "2 * 3.14 * u2"),
+        (NEW_ENGINE, "2 * 3.14 * u2"),
+        (NEW_LARGE_ENGINE, "2 * M_PI * u2"),
+        (DEVICE, "2 * 3.14 * u2"),
+        ("static std::mt19937 engine; return engine() % 100 / 100.f;", "2 * M_PI * u2"),
+        ("return rand() % 100 / 100.f;", "2 * M_PI * u2"),
+    ];
+    for (draw, theta) in cases {
+        let Some(report) = report_with_random(draw, (THETA, theta)) else { return };
+        assert_eq!(faults(&report), [], "{draw} {theta}: {}", sections_text(&report));
     }
+}
+
+/// A gap too narrow for a few thousand directions.
+#[test]
+fn a_gap_around_the_normal_is_told_whatever_draws_the_numbers() {
+    let Some(report) = report_with_random(STATIC_ENGINE, (THETA, "2 * 3.1f * u2")) else { return };
+    let expected = [(Section::HemisphereSampling, Some("not-even-around"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
 }
 
 /// With pi = 3.14, no photon lands where anyone could see it.

@@ -21,20 +21,39 @@ std::uint32_t counts[3][around_bins];
 std::uint64_t calls = 0;
 std::uint64_t rays_of_call = 0;
 std::uint64_t drawn_before = 0;
-std::clock_t last = 0;
-std::chrono::steady_clock::time_point last_on_clock;
+std::clock_t start = 0;
+std::chrono::steady_clock::time_point start_on_clock;
+double seconds = 0.;
 int standard_streams[2] = {-1, -1};
+
+// Whoever makes an engine in every call is slow. They get twice the time where it makes enough calls
+// for 360 degrees, and none where one time makes too few for 180 degrees.
+bool has_time() {
+    const double enough = 900000.;
+    const double least = 140000.;
+    const std::chrono::duration<double> on_clock = std::chrono::steady_clock::now() - start_on_clock;
+    // Whoever sleeps uses no processor time.
+    if (on_clock.count() > 5. * seconds) {
+        return false;
+    }
+    const double used = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    const double made = static_cast<double>(calls);
+    const double in_time = made * seconds / used;
+    if (used < seconds) {
+        return in_time >= least;
+    }
+    return used < 2. * seconds && made < enough && 2. * in_time >= enough;
+}
 
 } // namespace
 
-void begin_around(double seconds) {
+void begin_around(double of_step) {
     std::fill_n(&counts[0][0], 3 * around_bins, 0u);
     calls = 0;
     drawn_before = numbers_drawn();
-    last = std::clock() + static_cast<std::clock_t>(seconds * CLOCKS_PER_SEC);
-    // Whoever sleeps uses no processor time.
-    last_on_clock = std::chrono::steady_clock::now() +
-                    std::chrono::milliseconds(static_cast<int>(5000 * seconds));
+    seconds = of_step;
+    start = std::clock();
+    start_on_clock = std::chrono::steady_clock::now();
     // What is printed in every call is too much.
     std::cout.flush();
     std::fflush(nullptr);
@@ -53,7 +72,7 @@ bool wants_more_around(std::uint64_t numbers_of_direction) {
             std::fill_n(&counts[0][0], 3 * around_bins, 0u);
             return false;
         }
-        if (std::clock() > last || std::chrono::steady_clock::now() > last_on_clock) {
+        if (!has_time()) {
             return false;
         }
     }

@@ -131,7 +131,7 @@ impl SectionVerdict {
 fn where_of(step: PlanStep) -> String {
     match step {
         PlanStep::Emit => "4,000 rays from a light".to_owned(),
-        PlanStep::AroundLight => "2,000,000 rays from a light".to_owned(),
+        PlanStep::AroundLight => "1,500,000 rays from a light".to_owned(),
         PlanStep::EmitCorner => "a point in the corner of the cube is drawn first".to_owned(),
         PlanStep::EmitOnSphere => "a point on the sphere is drawn first".to_owned(),
         PlanStep::EmitZero => "the point (0, 0, 0) is drawn first".to_owned(),
