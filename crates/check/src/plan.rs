@@ -123,9 +123,13 @@ pub(crate) const SCATTERING: [PlanStep; 10] = [
 
 /// The steps, in the order in which they are carried out.
 pub fn steps() -> Vec<PlanStep> {
-    let mut steps =
-        vec![PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
-    steps.push(PlanStep::AroundLight);
+    let mut steps = vec![
+        PlanStep::Emit,
+        PlanStep::EmitCorner,
+        PlanStep::EmitOnSphere,
+        PlanStep::EmitZero,
+        PlanStep::AroundLight,
+    ];
     steps.extend(STORAGE);
     steps.extend(SCATTERING);
     steps.push(PlanStep::Floor);

@@ -209,7 +209,7 @@ fn report_with_random(draw: &str, change: (&str, &str)) -> Option<CheckReport> {
     ];
     let define = |include: &str| {
         format!(
-            "{include}\n#include <cmath>\n#include <random>\nstatic float Draw() {{ {draw} }}\n"
+            "{include}\n#include <cmath>\n#include <cstdio>\n#include <random>\nstatic float Draw() {{ {draw} }}\n"
         )
     };
     let report = report(&[
@@ -234,6 +234,10 @@ const NEW_ENGINE: &str = "std::random_device device;
 const NEW_LARGE_ENGINE: &str = "std::random_device device;
     std::mt19937 engine(device());
     return std::uniform_real_distribution<float>(0.f, 1.f)(engine);";
+/// What is printed a million times is too much.
+const PRINTING: &str = "std::puts(\"a line for every number\");
+    static std::mt19937 engine;
+    return engine() / 4294967296.0;";
 /// No engine at all.
 const DEVICE: &str = "std::random_device device;
     return std::generate_canonical<double, 53>(device);";
@@ -247,6 +251,7 @@ fn angles_in_degrees_are_told_whatever_draws_them() {
         (NEW_ENGINE, "360 * u2", "360"),
         (NEW_ENGINE, "180 * u2", "180"),
         (DEVICE, "-360.0 * u2", "360"),
+        (PRINTING, "360 * u2", "360"),
     ];
     for (draw, theta, words) in cases {
         let Some(report) = report_with_random(draw, (THETA, theta)) else { return };

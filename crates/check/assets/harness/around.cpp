@@ -59,8 +59,9 @@ void begin_around(double of_step) {
     std::fflush(nullptr);
     for (int i = 0; i < 2; ++i) {
         standard_streams[i] = dup(i + 1);
-        close(i + 1);
     }
+    close(1);
+    close(2);
     set_mode(Mode::around);
 }
 

@@ -42,8 +42,8 @@ pub(super) fn degrees(counts: &[u32], angle: &str) -> Option<String> {
     ))
 }
 
-/// How much the directions are not even, as a part of the circle; nothing where chance or few
-/// numbers explain it.
+/// What an arc of the circle has more than its share, as a part of all directions; nothing where
+/// chance or few numbers explain it.
 pub(super) fn unevenness(counts: &[u32]) -> Option<f64> {
     let total: f64 = counts.iter().copied().map(f64::from).sum();
     let uneven = range(excess(counts).into_iter());

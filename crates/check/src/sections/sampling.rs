@@ -232,11 +232,11 @@ fn judge_around(observed: &Observed, directions: &Directions, verdict: &mut Sect
     let Some(counts) = log.and_then(|log| log.around.last()) else { return };
     if let Some(found) = around::degrees(counts, "theta") {
         verdict.fault(Some("angle-in-degrees"), found, AZIMUTH);
-    } else if let Some(part) = around::unevenness(counts) {
+    } else if let (true, Some(part)) = (verdict.faults.is_empty(), around::unevenness(counts)) {
         let total: u64 = counts.iter().copied().map(u64::from).sum();
         let found = format!(
-            "{total} directions are not even around the normal: {:.2} % of them would have to \
-             leave one arc for another",
+            "{total} directions are not even around the normal: an arc of the circle has {:.2} % of \
+             them more than its share",
             100.0 * part
         );
         verdict.fault(Some("not-even-around"), found, AZIMUTH);
