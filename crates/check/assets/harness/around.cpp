@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <fcntl.h>
 #include <iostream>
 #include <unistd.h>
 
@@ -58,10 +59,12 @@ void begin_around(double of_step) {
     std::cout.flush();
     std::fflush(nullptr);
     for (int i = 0; i < 2; ++i) {
-        standard_streams[i] = dup(i + 1);
+        // Above those in which the pipe may be.
+        standard_streams[i] = fcntl(i + 1, F_DUPFD, 256);
+        if (standard_streams[i] >= 0) {
+            close(i + 1);
+        }
     }
-    close(1);
-    close(2);
     set_mode(Mode::around);
 }
 
@@ -100,8 +103,10 @@ void count_second_ray(const float* direction) {
 void end_around() {
     set_mode(Mode::silent);
     for (int i = 0; i < 2; ++i) {
-        dup2(standard_streams[i], i + 1);
-        close(standard_streams[i]);
+        if (standard_streams[i] >= 0) {
+            dup2(standard_streams[i], i + 1);
+            close(standard_streams[i]);
+        }
     }
     std::cout.clear();
     std::cerr.clear();
