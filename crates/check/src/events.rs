@@ -79,8 +79,8 @@ pub struct StepLog {
     pub calls: Vec<Call>,
     /// Whether the student's functions have another signature, so that the step was left out.
     pub other_signature: bool,
-    /// Directions around x, y and z, in equal parts of the circle. All are 0 where single calls tell
-    /// more.
+    /// Directions around x, y and z, in equal parts of the circle. All are 0 where single calls
+    /// tell more.
     pub around: Vec<Vec<u32>>,
     /// Whether the step came to its end.
     pub ended: bool,

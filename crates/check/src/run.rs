@@ -191,8 +191,8 @@ pub fn run(
         observed.deaths[current] = Some(death);
         deaths += 1;
         first = current + 1;
-        // An emission that never ends ends with no other numbers either. One that dies is not called a
-        // million times.
+        // An emission that never ends ends with no other numbers either. One that dies is not
+        // called a million times.
         while steps[current].is_emission()
             && (is_endless && steps[first].is_emission() || steps[first] == PlanStep::AroundLight)
         {

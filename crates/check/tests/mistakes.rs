@@ -209,7 +209,8 @@ fn report_with_random(draw: &str, change: (&str, &str)) -> Option<CheckReport> {
     ];
     let define = |include: &str| {
         format!(
-            "{include}\n#include <cmath>\n#include <cstdio>\n#include <random>\nstatic float Draw() {{ {draw} }}\n"
+            "{include}\n#include <cmath>\n#include <cstdio>\n#include <random>\n\
+             static float Draw() {{ {draw} }}\n"
         )
     };
     let report = report(&[

@@ -27,12 +27,13 @@ std::chrono::steady_clock::time_point start_on_clock;
 double seconds = 0.;
 int standard_streams[2] = {-1, -1};
 
-// Whoever makes an engine in every call is slow. They get twice the time where it makes enough calls
-// for 360 degrees, and none where one time makes too few for 180 degrees.
+// Whoever makes an engine in every call is slow. They get twice the time where that makes enough
+// calls for 360 degrees, and none where one time makes too few for 180 degrees.
 bool has_time() {
     const double enough = 900000.;
     const double least = 140000.;
-    const std::chrono::duration<double> on_clock = std::chrono::steady_clock::now() - start_on_clock;
+    const std::chrono::duration<double> on_clock =
+        std::chrono::steady_clock::now() - start_on_clock;
     // Whoever sleeps uses no processor time.
     if (on_clock.count() > 5. * seconds) {
         return false;

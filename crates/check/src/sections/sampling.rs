@@ -235,8 +235,8 @@ fn judge_around(observed: &Observed, directions: &Directions, verdict: &mut Sect
     } else if let (true, Some(part)) = (verdict.faults.is_empty(), around::unevenness(counts)) {
         let total: u64 = counts.iter().copied().map(u64::from).sum();
         let found = format!(
-            "{total} directions are not even around the normal: an arc of the circle has {:.2} % of \
-             them more than its share",
+            "{total} directions are not even around the normal: an arc of the circle has {:.2} % \
+             of them more than its share",
             100.0 * part
         );
         verdict.fault(Some("not-even-around"), found, AZIMUTH);
