@@ -114,7 +114,7 @@ impl Whole {
             )
         };
         let photon = first.photon.map(explain).unwrap_or_default();
-        format!("it parts from the reference{what}{photon}")
+        format!("it differs from the reference{what}{photon}")
     }
 }
 

@@ -19,7 +19,7 @@ pub fn text(report: &CheckReport, grade: &Grade, best: f64) -> String {
         section(verdict, &mut line);
     }
     if !report.sections.is_empty() {
-        line(format!("  the whole: {}", report.whole.sentence(&report.sections)));
+        line(format!("  whole run: {}", report.whole.sentence(&report.sections)));
     }
     let statistics: Vec<_> = of_statistics(grade).collect();
     if !statistics.is_empty() {

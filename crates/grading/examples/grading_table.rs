@@ -89,11 +89,11 @@ fn false_alarms(count: u64, expectations: &Expectations, with_small_limit: &Expe
     ];
     println!("## Correct submissions called incorrect\n");
     println!(
-        "Fair readings of all kinds, offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to \
-         1e-3 along the new direction, left-handed frames, positions up to 0.007 off their \
-         surface, numbers of three generators (one of 15 bits), of Halton and stratified, with and \
-         without the number of photons; and of at most {SMALL_LIMIT} bounces as well. p is the \
-         smallest of a list, corrected for the number of tests; below {SIGNIFICANCE:.0e} it is \
+        "All kinds of fair readings: offsets from 5e-7 to 1e-3 along the normal and from 1e-5 to \
+         1e-3 along the new direction, left-handed frames, and positions up to 0.007 off their \
+         surface. Three generators (one of 15 bits), Halton's and stratified numbers. With and \
+         without the number of photons. One row has at most {SMALL_LIMIT} bounces. p is the \
+         smallest of a list, corrected for the number of tests. Below {SIGNIFICANCE:.0e} a list is \
          called incorrect.\n"
     );
     println!("| emitted | submissions | p < 0.01 | p < 0.001 | p < 0.0001 | called incorrect |");
@@ -322,10 +322,11 @@ fn detection(seeds: u64, only: &str, expectations: &Expectations, with_small_lim
     ids.retain(|id| *id != "fair");
     println!("## Found and named\n");
     println!(
-        "{seeds} lists a row, of all of its ways in turn. Of these: how many the best test would \
-         find that knows both laws, by cells, and no fair reading but the closest / how many are \
-         called incorrect / how many are named rightly. All columns are all but `photon`, beside \
-         which the best test is not known.\n"
+        "Each row has {seeds} lists, made in all ways of the misreading in turn. The three numbers \
+         of a cell are: how many lists the best possible test would find / how many are called \
+         incorrect / how many are named rightly. The best test knows the counts that this \
+         misreading and the closest fair reading give in the cells. \"All columns\" leaves out \
+         `photon`; the best test with columns is not known.\n"
     );
     println!(
         "| what was done | emitted | positions alone | and the number emitted | all columns \

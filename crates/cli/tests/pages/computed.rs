@@ -54,9 +54,17 @@ fn numbers_are_found_and_held_to_their_digits() {
 #[test]
 fn numbers_of_the_expected_values() {
     let expected = ExpectedTable::of_assignment8();
-    assert_says("ASSIGNMENT.md", "Per emitted photon, # are stored", &[expected.total.stored]);
+    assert_says(
+        "ASSIGNMENT.md",
+        "On average, # photons are stored per emitted photon",
+        &[expected.total.stored],
+    );
     let deviation = (1e6 * expected.covariance.iter().flatten().sum::<f64>()).sqrt();
-    assert_says("README.md", "For the total, it is # and #.", &[deviation, 3.0 * deviation]);
+    assert_says(
+        "README.md",
+        "For the total of this run, these are # and #.",
+        &[deviation, 3.0 * deviation],
+    );
     let words = "the standard deviation of the stored total is about #.";
     assert_says("docs/accuracy.md", words, &[deviation]);
     // "About twice that of independent photons", of which each is stored at most once.
@@ -128,7 +136,7 @@ fn points_are_rounded_as_far_as_the_pages_say() {
         }
     });
     assert_says("docs/numerics.md", "A rounded point lies up to # off its plane", &[farthest]);
-    assert_says("ASSIGNMENT.md", "A point on a ray is rounded, here by up to #,", &[farthest]);
+    assert_says("ASSIGNMENT.md", "Rounding moves a hit point by up to #,", &[farthest]);
 }
 
 #[test]

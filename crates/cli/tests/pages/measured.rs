@@ -81,7 +81,7 @@ fn slope_and_goals_are_those_of_the_report() {
 fn precision_and_offset_are_those_of_the_report() {
     let page = "docs/accuracy.md";
     let paths = reported("photons with the random numbers of seed")[0];
-    assert_says(page, "Of # paths, none takes", &[paths]);
+    assert_says(page, "All # paths take", &[paths]);
     assert_eq!(reported("of a million paths decide otherwise")[0], 0.0);
     let [first, second] = ["| 1 | ", "| 2 | "].map(|row| reported(row)[2]);
     assert_says(page, "differ by # at the first hit and # at the second", &[first, second]);
@@ -214,7 +214,7 @@ fn stages_on_the_page_are_those_of_the_bench() {
     let (all, baseline) = (row("all of a photon, Avx512", 2), row("all of a photon, Baseline", 2));
     assert_says(
         "docs/speed.md",
-        "# photons in 100 come to emission twice",
+        "# photons in 100 need a second block of random numbers",
         &[100.0 * share - 100.0],
     );
     assert_says("docs/speed.md", "Emission takes most: # of # cycles.", &[emission, all]);
