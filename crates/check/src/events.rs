@@ -5,6 +5,9 @@ use std::collections::BTreeSet;
 use glam::Vec3;
 use photon_mapping::photon_list::PhotonRecord;
 
+/// The parts of the circle in which directions around an axis are counted.
+pub const AROUND_BINS: usize = 720;
+
 /// A question to the scene: what does this ray meet?
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
@@ -76,6 +79,9 @@ pub struct StepLog {
     pub calls: Vec<Call>,
     /// Whether the student's functions have another signature, so that the step was left out.
     pub other_signature: bool,
+    /// Directions around x, y and z, in equal parts of the circle. All are 0 where single calls
+    /// tell more.
+    pub around: Vec<Vec<u32>>,
     /// Whether the step came to its end.
     pub ended: bool,
 }

@@ -27,6 +27,7 @@ macro_rules! assets {
 /// The C++ files, by their paths under the kit's folder.
 const ASSETS: &[(&str, &str)] = assets![
     "harness/all.cpp",
+    "harness/around.cpp",
     "harness/guard.cpp",
     "harness/harness.cpp",
     "harness/random.cpp",

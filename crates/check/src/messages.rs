@@ -4,7 +4,7 @@ use glam::Vec3;
 use grading::text::printable;
 use photon_mapping::photon_list::{PhotonRecord, ROW_BYTES};
 
-use crate::events::{Call, Log, Notice, StepLog, Stored, Trace};
+use crate::events::{AROUND_BINS, Call, Log, Notice, StepLog, Stored, Trace};
 
 /// The bytes of the key that stands before every piece.
 const KEY_BYTES: usize = 8;
@@ -115,6 +115,11 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
             });
         }
         b'C' => log.whole.counts = Some([rest.u64()?, rest.u64()?, rest.u64()?]),
+        b'A' => {
+            let counts = rest.take(4 * AROUND_BINS)?.chunks_exact(4);
+            let number = |bytes: &[u8]| bytes.try_into().map_or(0, u32::from_ne_bytes);
+            step(log).around.push(counts.map(number).collect());
+        }
         b'L' => log.whole.is_too_long = true,
         b'U' => step(log).other_signature = true,
         b'S' => {

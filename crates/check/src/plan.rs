@@ -26,6 +26,8 @@ pub const COLORS: [Vec3; 4] = [
 const FAR: i32 = 1000;
 /// As many calls show every misreading far beyond chance.
 const CALLS: u64 = 4000;
+/// As many calls show what 360 degrees leave: ten standard deviations.
+const CALLS_AROUND: u64 = 1_500_000;
 
 /// One step of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +40,8 @@ pub enum PlanStep {
     EmitOnSphere,
     /// The first three draws are zero.
     EmitZero,
+    /// So many rays from the light that angles in degrees show.
+    AroundLight,
     /// The first hit of a path on a black wall.
     StoreFirst,
     /// A later hit, with a path of this length before it.
@@ -62,6 +66,8 @@ pub enum PlanStep {
     Floor,
     /// A gray wall with this normal.
     Wall(Vec3),
+    /// A white floor, and so many directions that angles in degrees show.
+    Around,
     /// The handout's scene.
     Whole,
 }
@@ -69,7 +75,10 @@ pub enum PlanStep {
 impl PlanStep {
     /// Whether it only asks the light for rays.
     pub fn is_emission(self) -> bool {
-        matches!(self, Self::Emit | Self::EmitCorner | Self::EmitOnSphere | Self::EmitZero)
+        matches!(
+            self,
+            Self::Emit | Self::EmitCorner | Self::EmitOnSphere | Self::EmitZero | Self::AroundLight
+        )
     }
 }
 
@@ -114,13 +123,18 @@ pub(crate) const SCATTERING: [PlanStep; 10] = [
 
 /// The steps, in the order in which they are carried out.
 pub fn steps() -> Vec<PlanStep> {
-    let mut steps =
-        vec![PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
+    let mut steps = vec![
+        PlanStep::Emit,
+        PlanStep::EmitCorner,
+        PlanStep::EmitOnSphere,
+        PlanStep::EmitZero,
+        PlanStep::AroundLight,
+    ];
     steps.extend(STORAGE);
     steps.extend(SCATTERING);
     steps.push(PlanStep::Floor);
     steps.extend(wall_normals().into_iter().map(PlanStep::Wall));
-    steps.push(PlanStep::Whole);
+    steps.extend([PlanStep::Around, PlanStep::Whole]);
     steps
 }
 
@@ -137,6 +151,7 @@ pub fn file(photons: u64) -> String {
                 let numbers = numbers.as_flattened().iter().map(u32::to_string);
                 format!("emit {scenes} 1 6 {}", numbers.collect::<Vec<_>>().join(" "))
             }
+            PlanStep::AroundLight => format!("around-light {scenes} {CALLS_AROUND}"),
             PlanStep::Whole => format!("whole {scenes} {photons}"),
             _ => trace(step, scenes),
         };
@@ -195,9 +210,11 @@ fn trace(step: PlanStep, scene: usize) -> String {
         // Half of the paths end at every hit, unless there is no roulette.
         PlanStep::GrayCube => (2000, 1, 50),
         PlanStep::Floor => (2 * CALLS, 1, FAR),
+        PlanStep::Around => (CALLS_AROUND, 1, FAR),
         _ => (CALLS, 1, FAR),
     };
-    let mut text = format!("trace {scene} {calls} {path} {remaining}");
+    let what = if step == PlanStep::Around { "around" } else { "trace" };
+    let mut text = format!("{what} {scene} {calls} {path} {remaining}");
     let rays = rays(step);
     write!(text, " {}", rays.len()).expect("a string takes everything");
     for vector in rays.as_flattened() {
@@ -216,7 +233,11 @@ fn trace(step: PlanStep, scene: usize) -> String {
 fn add_scene(step: PlanStep, file: &mut String) {
     line(file, "scene");
     match step {
-        PlanStep::Emit | PlanStep::EmitCorner | PlanStep::EmitOnSphere | PlanStep::EmitZero => {
+        PlanStep::Emit
+        | PlanStep::EmitCorner
+        | PlanStep::EmitOnSphere
+        | PlanStep::EmitZero
+        | PlanStep::AroundLight => {
             line(file, &format!("light{}{}", vector_text(LIGHT), vector_text(Vec3::ONE)));
         }
         PlanStep::StoreMiss => {}
@@ -225,7 +246,7 @@ fn add_scene(step: PlanStep, file: &mut String) {
         }
         PlanStep::Remaining(_) | PlanStep::GrowPath => cubes(file, Vec3::ONE),
         PlanStep::GrayCube => cubes(file, Vec3::splat(0.5)),
-        PlanStep::White => wall(file, Vec3::Z, Vec3::ONE),
+        PlanStep::White | PlanStep::Around => wall(file, Vec3::Z, Vec3::ONE),
         PlanStep::Color(index) => wall(file, Vec3::Z, COLORS[index]),
         PlanStep::Threshold(_) | PlanStep::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
         PlanStep::Wall(normal) => wall(file, normal, Vec3::splat(0.5)),

@@ -191,8 +191,11 @@ pub fn run(
         observed.deaths[current] = Some(death);
         deaths += 1;
         first = current + 1;
-        // An emission that never ends ends with no other numbers either.
-        while is_endless && steps[current].is_emission() && steps[first].is_emission() {
+        // An emission that never ends ends with no other numbers either. One that dies is not
+        // called a million times.
+        while steps[current].is_emission()
+            && (is_endless && steps[first].is_emission() || steps[first] == PlanStep::AroundLight)
+        {
             observed.deaths[first] = Some(Death::LeftOut);
             first += 1;
         }

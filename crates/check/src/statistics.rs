@@ -17,6 +17,15 @@ pub fn is_uniform(sample: &[f64]) -> bool {
     distance.fold(0.0, f64::max) * n.sqrt() < KOLMOGOROV
 }
 
+/// Kuiper's statistic beyond which directions are not even around the circle: a chance of 6e-7.
+const KUIPER: f64 = 3.05;
+
+/// How far parts of the circle may have more or fewer of `count` directions than is even, by
+/// Kuiper's test: the sum of the largest excess and the largest lack, from any start.
+pub fn kuiper_limit(count: f64) -> f64 {
+    KUIPER / count.max(1.0).sqrt()
+}
+
 /// Whether two samples may come from one distribution.
 pub fn are_alike(a: &[f64], b: &[f64]) -> bool {
     let (a, b) = (sorted(a), sorted(b));
@@ -76,6 +85,17 @@ mod tests {
         assert!(are_alike(&even, &every_third));
         // Ties count on both sides at once.
         assert!(are_alike(&[0.0; 500], &[0.0; 700]));
+    }
+
+    /// The tail of Kuiper's statistic (1960).
+    #[test]
+    fn the_limit_for_the_circle_has_its_chance() {
+        let term = |j: i32| {
+            let square = (f64::from(j) * KUIPER).powi(2);
+            2.0 * (4.0 * square - 1.0) * libm::exp(-2.0 * square)
+        };
+        let chance: f64 = (1..9).map(term).sum();
+        assert!((5e-7..1e-6).contains(&chance), "{chance}");
     }
 
     #[test]

@@ -16,7 +16,7 @@ use variants::section::Section;
 const TIME: Duration = Duration::from_secs(60);
 
 /// The mistakes, by their numbers in `styles/mistake.h`, with the section and name of the fault.
-const MISTAKES: [(u8, Section, &str); 16] = [
+const MISTAKES: [(u8, Section, &str); 17] = [
     (1, Section::PhotonStorage, "direct-stored"),
     (2, Section::HemisphereRayTransformation, "no-offset"),
     (3, Section::HemisphereSampling, "uniform-hemisphere"),
@@ -33,6 +33,7 @@ const MISTAKES: [(u8, Section, &str); 16] = [
     (14, Section::HemisphereSampling, "along-normal"),
     (15, Section::HemisphereRayTransformation, "start-not-moved"),
     (16, Section::PhotonStorage, "first-bounce-only"),
+    (21, Section::HemisphereSampling, "angle-in-degrees"),
 ];
 
 /// Fair readings, by their numbers, with a word of what is said of them.

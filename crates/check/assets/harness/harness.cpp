@@ -15,6 +15,8 @@
 //   emit SCENE CALLS COUNT numbers          a step: asks light 0 for rays
 //   trace SCENE CALLS PATH REMAINING RAYS 6 floats each COUNT numbers
 //                                           a step: traces photons along these rays, in turn
+//   around-light SCENE CALLS                a step: counts the directions of these rays
+//   around SCENE CALLS PATH ... numbers     as trace, but counts the directions of second rays
 //   whole SCENE PHOTONS                     a step: the whole run
 //
 // COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled
@@ -56,7 +58,7 @@ private:
 };
 
 struct Step {
-    enum Kind { emit, trace, whole } kind;
+    enum Kind { emit, trace, around_light, around, whole } kind;
     std::size_t scene;
     std::uint64_t calls;
     std::size_t path;
@@ -138,8 +140,12 @@ bool read_plan(const char* path, Plan& plan) {
         } else {
             Step step = Step();
             in >> step.scene >> step.calls;
-            step.kind = item == "emit" ? Step::emit : item == "trace" ? Step::trace : Step::whole;
-            if (step.kind == Step::trace) {
+            step.kind = item == "emit"           ? Step::emit
+                        : item == "trace"        ? Step::trace
+                        : item == "around-light" ? Step::around_light
+                        : item == "around"       ? Step::around
+                                                 : Step::whole;
+            if (step.kind == Step::trace || step.kind == Step::around) {
                 std::size_t rays = 0;
                 in >> step.path >> step.remaining >> rays;
                 for (std::size_t i = 0; i < rays; ++i) {
@@ -150,7 +156,7 @@ bool read_plan(const char* path, Plan& plan) {
                     step.rays.push_back(ray);
                 }
             }
-            if (step.kind != Step::whole) {
+            if (step.kind != Step::whole && step.kind != Step::around_light) {
                 std::size_t count = 0;
                 in >> count;
                 step.numbers.resize(count);
@@ -248,10 +254,14 @@ auto clear_map(Renderer& renderer, int) -> decltype(static_cast<void>(renderer.d
 template <class Renderer>
 void clear_map(Renderer&, long) {}
 
+void place(PointLight& light, const LightData& data) {
+    light.SetPosition(data.position);
+    light.SetLightColor(data.color);
+}
+
 void run_emit(const Plan& plan, const Step& step) {
     PointLight light;
-    light.SetPosition(plan.lights[step.scene][0].position);
-    light.SetLightColor(plan.lights[step.scene][0].color);
+    place(light, plan.lights[step.scene][0]);
     const Light& as_light = light;
     set_mode(Mode::events);
     for (std::uint64_t i = 0; i < step.calls; ++i) {
@@ -311,12 +321,48 @@ void run_trace(const Plan& plan, const Step& step) {
     }
 }
 
+void run_around_light(const Plan& plan, const Step& step, double seconds) {
+    PointLight light;
+    place(light, plan.lights[step.scene][0]);
+    const Light& as_light = light;
+    begin_numbers(seed, 0, nullptr, 0);
+    begin_around(seconds);
+    guarded([&] {
+        // Angles in polar coordinates take two numbers.
+        for (std::uint64_t i = 0; i < step.calls && wants_more_around(2); ++i) {
+            Ray ray;
+            as_light.GenerateRandomPhotonRay(ray);
+            const glm::vec3 towards = ray.GetRayDirection();
+            for (int axis = 0; axis < 3; ++axis) {
+                count_around(&towards[0], axis);
+            }
+        }
+    });
+    end_around();
+}
+
+void run_around(const Plan& plan, const Step& step, double seconds) {
+    const std::shared_ptr<Scene> scene = std::make_shared<Scene>(*plan.scenes[step.scene]);
+    begin_numbers(seed, 0, nullptr, 0);
+    begin_around(seconds);
+    guarded([&] {
+        const std::shared_ptr<PhotonMappingRenderer> renderer = make_renderer(scene);
+        // One number is for the roulette.
+        for (std::uint64_t i = 0; i < step.calls && wants_more_around(3); ++i) {
+            if (!trace_photon(*renderer, step, i, 0)) {
+                return;
+            }
+            clear_map(*renderer, 0);
+        }
+    });
+    end_around();
+}
+
 void run_whole(const Plan& plan, const Step& step) {
     const std::shared_ptr<Scene> scene = std::make_shared<Scene>(*plan.scenes[step.scene]);
     for (const LightData& data : plan.lights[step.scene]) {
         const std::shared_ptr<RecordedLight> light = std::make_shared<RecordedLight>();
-        light->SetPosition(data.position);
-        light->SetLightColor(data.color);
+        place(*light, data);
         scene->AddLight(light);
     }
     guarded([&] {
@@ -346,12 +392,20 @@ int main(int argc, char** argv) {
         begin_step(static_cast<std::uint32_t>(i));
         const char* const seconds = argv[step.kind == Step::whole ? 4 : 3];
         give_processor_time(static_cast<unsigned>(std::stoul(seconds)));
+        // A third of it is far from its end.
+        const double around_seconds = std::stoul(seconds) / 3.0;
         switch (step.kind) {
         case Step::emit:
             run_emit(plan, step);
             break;
         case Step::trace:
             run_trace(plan, step);
+            break;
+        case Step::around_light:
+            run_around_light(plan, step, around_seconds);
+            break;
+        case Step::around:
+            run_around(plan, step, around_seconds);
             break;
         case Step::whole:
             run_whole(plan, step);

@@ -130,12 +130,18 @@ void end_step() {
 }
 
 void begin_call() {
+    if (mode == Mode::around) {
+        return;
+    }
     ++calls_of_step;
     put('N');
     drawn_before_call = numbers_drawn();
 }
 
 void end_call() {
+    if (mode == Mode::around) {
+        return;
+    }
     put('E');
     put_number(static_cast<std::uint32_t>(numbers_drawn() - drawn_before_call));
 }
@@ -163,6 +169,8 @@ void on_trace(const float (&position_and_direction)[6], bool met, bool has_state
         put_number(static_cast<std::uint16_t>(object));
         put_number(static_cast<std::uint16_t>(triangle));
         flush_early();
+    } else if (mode == Mode::around && has_state) {
+        count_second_ray(position_and_direction + 3);
     }
     if (met && has_state) {
         ++hits_of_photon;
@@ -201,6 +209,11 @@ void end_whole_run() {
     put_number(numbers_drawn() - drawn_before_run);
     put_number(photons);
     put_number(rays);
+}
+
+void tell_around(const std::uint32_t (&counts)[around_bins]) {
+    put('A');
+    put_bytes(counts, sizeof counts);
 }
 
 void other_signature() { put('U'); }

@@ -15,6 +15,8 @@
 //   X u16, bytes     the call ended with an exception, which says this
 //   W 44 bytes       a photon of the whole run was stored: a row of a photon list
 //   C u64, u64, u64  the whole run ended: numbers drawn, photons emitted, rays traced
+//   A 720 u32        the directions of a step around x, y or z, which come in this order; 720 parts
+//                    of the circle
 //   L                the whole run stored more than anyone reads
 //   U                the submission's functions have another signature; the step is left out
 //   S u8             something worth saying happened for the first time; see Notice
@@ -36,8 +38,9 @@ enum Notice : std::uint8_t {
     not_guarded = 4,
 };
 
-// Whether single calls are told (the steps for one section) or only stored photons (the whole run).
-enum class Mode : std::uint8_t { silent, events, whole };
+// What is told: single calls (the steps for one section), directions around an axis, or only stored
+// photons (the whole run).
+enum class Mode : std::uint8_t { silent, events, around, whole };
 void set_mode(Mode mode);
 
 void begin_step(std::uint32_t number);
@@ -50,6 +53,18 @@ void on_trace(const float (&position_and_direction)[6], bool met, bool has_state
               int object, int triangle);
 void on_insert(const float (&values)[9]);
 void end_whole_run();
+
+// In around.cpp: directions are counted for `seconds` of processor time, and then told.
+const std::size_t around_bins = 720;
+void begin_around(double seconds);
+// Whether one more call is wanted. None is where every call draws `numbers_of_direction` from the
+// reference: then single calls tell how directions follow from them.
+bool wants_more_around(std::uint64_t numbers_of_direction);
+void count_around(const float* direction, int axis);
+void count_second_ray(const float* direction);
+void end_around();
+void tell_around(const std::uint32_t (&counts)[around_bins]);
+
 void other_signature();
 void notice(Notice what);
 void all_steps_ended();

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 
-use super::{SectionVerdict, turns};
+use super::{SectionVerdict, around, turns};
 use crate::events::Call;
 use crate::plan::{LIGHT, PlanStep, SECOND_TRY, first_try};
 use crate::run::Observed;
@@ -106,7 +106,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     judge_start(&rays, &mut verdict);
     let directions: Vec<_> = rays.iter().map(|ray| ray[1]).collect();
     if judge_lengths(&directions, &mut verdict) {
-        judge_law(&directions, &mut verdict);
+        judge_law(observed, &directions, &mut verdict);
     }
     if verdict.faults.is_empty() {
         judge_scripted(observed, &mut verdict);
@@ -172,13 +172,20 @@ fn judge_lengths(directions: &[Vec3], verdict: &mut SectionVerdict) -> bool {
     true
 }
 
-fn judge_law(directions: &[Vec3], verdict: &mut SectionVerdict) {
+fn judge_law(observed: &Observed, directions: &[Vec3], verdict: &mut SectionVerdict) {
     let found = features(directions.iter().map(|direction| direction.normalize()));
     if fits(&found, ball) {
         let around =
             directions.iter().map(|v| f64::from(libm::atan2f(v.y, v.x)) / std::f64::consts::TAU);
         let turns = turns::turns(&(0..).zip(around).collect::<Vec<_>>());
-        if let Some((name, found)) = turns.and_then(|turns| turns::fault(turns, "phi")) {
+        let counted = observed.step(PlanStep::AroundLight).map_or([].as_slice(), |log| &log.around);
+        let found = match turns {
+            Some(turns) => turns::fault(turns, "phi"),
+            None => counted
+                .iter()
+                .find_map(|counts| Some(("angle-in-degrees", around::degrees(counts, "phi")?))),
+        };
+        if let Some((name, found)) = found {
             verdict.fault(Some(name), found, "Use the handout's loop over x, y and z.");
         }
         return;

@@ -1,5 +1,6 @@
 //! What the submission does in each section of the handout, each by itself.
 
+mod around;
 pub mod directions;
 mod emission;
 mod sampling;
@@ -130,6 +131,7 @@ impl SectionVerdict {
 fn where_of(step: PlanStep) -> String {
     match step {
         PlanStep::Emit => "4,000 rays from a light".to_owned(),
+        PlanStep::AroundLight => "1,500,000 rays from a light".to_owned(),
         PlanStep::EmitCorner => "a point in the corner of the cube is drawn first".to_owned(),
         PlanStep::EmitOnSphere => "a point on the sphere is drawn first".to_owned(),
         PlanStep::EmitZero => "the point (0, 0, 0) is drawn first".to_owned(),
@@ -141,7 +143,7 @@ fn where_of(step: PlanStep) -> String {
         }
         PlanStep::GrowPath => "closed white cubes, a path of length 1".to_owned(),
         PlanStep::Black => "a wall with P_r = 0".to_owned(),
-        PlanStep::White => "a wall with P_r = 1".to_owned(),
+        PlanStep::White | PlanStep::Around => "a wall with P_r = 1".to_owned(),
         PlanStep::Color(index) => {
             format!("a colored wall with P_r = {}", COLORS[index].max_element())
         }

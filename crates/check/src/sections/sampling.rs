@@ -1,7 +1,7 @@
 //! Hemisphere Sampling: the directions over a floor, where the frame changes nothing.
 
-use super::directions::{Directions, FEWEST, Scattered};
-use super::{SectionVerdict, turns};
+use super::directions::{Directions, FEWEST, FrameForm, Scattered};
+use super::{SectionVerdict, around, turns};
 use crate::plan::PlanStep;
 use crate::run::Observed;
 use crate::statistics::{are_alike, is_uniform, mean};
@@ -133,19 +133,24 @@ pub(super) fn judge(
         let advice = "sqrt of a negative number is NaN: u1 must lie in [0, 1).";
         verdict.fault(Some("not-finite"), found, advice);
     } else if directions.frame_of_floor.is_none() {
-        judge_angles(directions, &mut verdict);
+        if !judge_angles(directions, &mut verdict) {
+            judge_around(observed, directions, &mut verdict);
+        }
     } else {
         if let Some(law) = directions.law {
             law_fault(law, directions, &mut verdict);
         }
-        judge_pairs(directions, &mut verdict);
-        judge_turns(directions, &mut verdict);
+        let is_paired = judge_pairs(directions, &mut verdict);
+        if !judge_turns(directions, &mut verdict) && !is_paired {
+            judge_around(observed, directions, &mut verdict);
+        }
     }
     verdict.finish(observed, "TracePhoton", &[PlanStep::Floor], told)
 }
 
-/// The angles to the normal, and around it, of directions that do not follow the cosine.
-fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
+/// The angles to the normal, and around it, of directions that do not follow the cosine; whether
+/// there is a fault around it, or in all.
+fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
     let rays = &directions.floor;
     let total = rays.len();
     let below = rays.iter().filter(|ray| ray.direction.z < 0.0).count();
@@ -154,7 +159,7 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
         let found = format!("all {total} directions go along the normal");
         let advice = "u1 is always 0: dividing two integers, rand() / RAND_MAX, gives 0.";
         verdict.fault(Some("along-normal"), found, advice);
-        return;
+        return true;
     }
     let always = |expected: &dyn Fn(&Scattered) -> glam::Vec3| {
         rays.iter().all(|ray| ray.direction.normalize_or_zero().abs_diff_eq(expected(ray), 1e-3))
@@ -162,12 +167,12 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
     if always(&|ray| ray.incoming.reflect(glam::Vec3::Z)) {
         let found = "all photons are reflected as by a mirror".to_owned();
         verdict.fault(None, found, NEW_NUMBERS);
-        return;
+        return true;
     }
     if always(&|ray| ray.incoming) {
         let found = "all photons go on in the direction in which they came".to_owned();
         verdict.fault(None, found, NEW_NUMBERS);
-        return;
+        return true;
     }
     if below > 0 && below < total {
         let found = format!("{below} of {total} directions go below the floor; expected none");
@@ -176,7 +181,7 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
             found,
             "z = sqrt(1 - u1) is never negative, equation (6).",
         );
-        return;
+        return true;
     }
     let law = LAWS.iter().find(|law| are_alike(sines, &law.squared_sines()));
     let cosine = mean_cosine(directions);
@@ -202,6 +207,7 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) {
         );
         verdict.fault(Some("not-even-around"), found, AZIMUTH);
     }
+    has_fault_around || !directions.is_even_around
 }
 
 /// How theta follows from its random number, if that is known; whether there is a fault.
@@ -217,6 +223,26 @@ fn judge_turns(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
     false
 }
 
+/// What only millions of directions show.
+fn judge_around(observed: &Observed, directions: &Directions, verdict: &mut SectionVerdict) {
+    // In other frames, the angle around the floor's normal is not theta.
+    let is_theta =
+        !matches!(directions.frame_of_floor, Some(form) if form == FrameForm::OtherOrder);
+    let log = observed.step(PlanStep::Around).filter(|_| is_theta);
+    let Some(counts) = log.and_then(|log| log.around.last()) else { return };
+    if let Some(found) = around::degrees(counts, "theta") {
+        verdict.fault(Some("angle-in-degrees"), found, AZIMUTH);
+    } else if let (true, Some(part)) = (verdict.faults.is_empty(), around::unevenness(counts)) {
+        let total: u64 = counts.iter().copied().map(u64::from).sum();
+        let found = format!(
+            "{total} directions are not even around the normal: an arc of the circle has {:.2} % \
+             of them more than its share",
+            100.0 * part
+        );
+        verdict.fault(Some("not-even-around"), found, AZIMUTH);
+    }
+}
+
 fn law_fault(law: &AngleLaw, directions: &Directions, verdict: &mut SectionVerdict) {
     let cosine = mean_cosine(directions);
     let found =
@@ -230,15 +256,17 @@ fn mean_cosine(directions: &Directions) -> f64 {
     mean(&cosines)
 }
 
-/// Whether the angle to the normal and that around it are independent.
-fn judge_pairs(directions: &Directions, verdict: &mut SectionVerdict) {
+/// Whether the angle to the normal and that around it depend on each other.
+fn judge_pairs(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
     let mut of_all: Vec<_> = directions.sines.iter().zip(&directions.around).collect();
     of_all.sort_unstable_by(|a, b| a.0.total_cmp(b.0));
     let (near, far) = of_all.split_at(of_all.len() / 2);
     let [near, far] =
         [near, far].map(|half| half.iter().map(|(_, angle)| **angle).collect::<Vec<_>>());
-    if !are_alike(&near, &far) {
+    let is_paired = !are_alike(&near, &far);
+    if is_paired {
         let found = "the angle around the normal depends on the angle to it".to_owned();
         verdict.fault(Some("one-number"), found, NEW_NUMBERS);
     }
+    is_paired
 }

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 5e-3;
 /// So few of the angles may lie farther.
 const FEW: f64 = 0.02;
 /// A gap or an overlap of this part of a circle has no effect: pi = 3.14 leaves half of it.
-const NO_EFFECT: f64 = 1e-3;
+pub(super) const NO_EFFECT: f64 = 1e-3;
 
 /// The turns that `angles` make while a number goes from 0 to 1, if they follow from one of the
 /// first numbers of their calls and nothing else. Each angle, in turns, comes with the number of

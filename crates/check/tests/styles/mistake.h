@@ -27,6 +27,7 @@ enum Mistake {
     long_offset,
     exchanged,
     octant_and_mean,
+    degrees,
 };
 
 inline Mistake mistake() {

@@ -43,7 +43,7 @@ void PhotonMappingRenderer::TracePhoton(PhotonKdtree& photonMap, Ray* photonRay,
             std::normal_distribution<float> normal;
             out = n + glm::normalize(glm::vec3(normal(engine), normal(engine), normal(engine)));
         } else {
-            const float u1 = uniform(engine), u2 = uniform(engine), phi = 6.2831853f * u2;
+            const float u1 = uniform(engine), u2 = uniform(engine), phi = (mistake() == degrees ? 360.f : 6.2831853f) * u2;
             float r = sqrt(u1), z = sqrt(1.f - u1);
             if (mistake() == no_square_root) r = u1;
             if (mistake() == uniform_hemisphere) { z = u1; r = sqrt(1.f - u1 * u1); }

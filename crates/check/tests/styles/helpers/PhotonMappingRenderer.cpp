@@ -42,10 +42,10 @@ glm::vec3 hemisphere()
 {
     if (mistake() == along_normal)
         return glm::vec3(0.f, 0.f, 1.f);
-    if (mistake() == uniform_hemisphere || mistake() == no_square_root) {
-        float u = rand01(), phi = 2.f * PI * rand01();
+    if (mistake() == uniform_hemisphere || mistake() == no_square_root || mistake() == degrees) {
+        float u = rand01(), phi = (mistake() == degrees ? 180 : 2.f * PI) * rand01();
         float z = mistake() == uniform_hemisphere ? 1.f - u : sqrtf(1.f - u);
-        float r = mistake() == uniform_hemisphere ? sqrtf(1.f - z * z) : u;
+        float r = mistake() == no_square_root ? u : sqrtf(1.f - z * z);
         return glm::normalize(glm::vec3(r * cosf(phi), r * sinf(phi), z));
     }
     glm::vec2 p;

@@ -51,7 +51,7 @@ void PhotonMappingRenderer::TracePhoton(PhotonKdtree& photonMap, Ray* photonRay,
             double r = std::sqrt(u1), z = std::sqrt(1 - u1);
             if (mistake() == no_square_root) r = u1;
             if (mistake() == uniform_hemisphere) { z = u1; r = std::sqrt(1 - u1 * u1); }
-            const double theta = 2 * 3.14159265358979323846 * u2;
+            const double theta = mistake() == degrees ? 360 * u2 : 2 * 3.14159265358979323846 * u2;
             return glm::normalize(glm::dvec3(r * std::cos(theta), r * std::sin(theta), z));
         }();
         const glm::dvec3 n = (mistake() == flipped_normal ? -1.0 : 1.0) * glm::dvec3(state.ComputeNormal());

@@ -21,7 +21,7 @@ glm::vec3 PhotonMappingRenderer::CosineSample() const
 {
     const float u1 = Random();
     const float u2 = Random();
-    const float theta = 2.f * PI * u2;
+    const float theta = mistake() == degrees ? 360 * u2 : 2.f * PI * u2;
     switch (mistake()) {
     case uniform_hemisphere:
         return glm::vec3(std::sqrt(1.f - u1 * u1) * std::cos(theta), std::sqrt(1.f - u1 * u1) * std::sin(theta), u1);
