@@ -2,8 +2,8 @@
 
 /// What `grade` needs for two lists of 5,000,000 records in a class of 42, in bytes, besides its
 /// threads and for each of these: one ran in 563 MB, and six in 973 MB but not in 870 MB. Five once
-/// ran out of 973 MB on a busy machine, so each has half as much again. The C library reserves 64 MB
-/// for what each allocates.
+/// ran out of 973 MB on a busy machine, so each has half as much again. The C library reserves
+/// 64 MB for what each allocates.
 const BASE: u64 = 560_000_000;
 const OF_THREAD: u64 = 120_000_000;
 
