@@ -174,17 +174,21 @@ fn what_cannot_be_written_costs_no_other_its_page() {
     fails("check --class {}", &[&empty], &["empty", "found none"]);
 }
 
-/// The second submission compiles only when the report on the first is out.
+/// The second submission compiles only when the report on the first is out. The third is
+/// ready before either, and waits.
 #[test]
 fn reports_are_printed_as_they_come() {
     let folder = folder();
     let (class, go) = (folder.path().join("class"), folder.path().join("go"));
-    broken(&class, "amy");
+    let amy = broken(&class, "amy").join("PhotonMappingRenderer.cpp");
+    fs::write(amy, "#error amy is slow\n").expect("can be written");
+    broken(&class, "cid");
     let bob = broken(&class, "bob").join("PhotonMappingRenderer.cpp");
     fs::write(bob, "#error bob waits\n").expect("can be written");
     let compiler = folder.path().join("compiler");
     let script = format!(
         "#!/bin/sh\nfor last; do :; done\n\
+         if grep -q 'is slow' \"$last\" 2>/dev/null; then sleep 2; fi\n\
          if grep -q waits \"$last\" 2>/dev/null; then\n\
          i=0; while [ $i -lt 200 ] && ! [ -e {0} ]; do sleep 0.1; i=$((i + 1)); done\n\
          [ -e {0} ] || {{ echo \"$last:1:1: error: in vain\" >&2; exit 1; }}\nfi\n\
@@ -196,6 +200,7 @@ fn reports_are_printed_as_they_come() {
     let mut child = program(folder.path())
         .args(["check", "--class", "class"])
         .env("CXX", &compiler)
+        .env("RAYON_NUM_THREADS", "3")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -209,7 +214,8 @@ fn reports_are_printed_as_they_come() {
     if lacks_compiler(&String::from_utf8_lossy(&ended.stderr)) {
         return;
     }
-    assert!(text.starts_with("amy: unreadable") && text.contains("\n\nbob: unreadable"), "{text}");
+    let names = text.lines().filter_map(|line| line.split_once(": unreadable"));
+    assert_eq!(names.map(|(name, _)| name).collect::<Vec<_>>(), ["amy", "bob", "cid"], "{text}");
     assert!(text.contains("#error bob waits"), "{text}");
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn not_recognized<E: Evidence>(evidence: &E) -> Option<Finding> {
     };
     let finding = Finding::new(
         RECOGNIZED,
-        "a photon map of this scene, be it with mistakes",
+        "a photon map of this scene, with or without mistakes",
         found,
         "Nothing of the photon map is recognizable: a person must look. Check which file was \
          handed in, and which program made it.",
@@ -72,7 +72,7 @@ fn to_even<E: Evidence>(evidence: &E) -> f64 {
 /// moves.
 fn to_move(counts: &[f64], means: &[f64]) -> f64 {
     let apart = counts.iter().zip(means).map(|(count, mean)| {
-        // The mean deviation of a number of Poisson's law, nearly.
+        // Nearly the mean deviation of a Poisson variable.
         let by_chance = (2.0 * mean).min((2.0 * mean / std::f64::consts::PI).sqrt());
         (count - mean).abs() - by_chance
     });

@@ -166,8 +166,8 @@ fn own_picture(picture: &Path, settings: &Settings, expectations: &Expectations)
 
 fn told_own(what: &str, seed: u64) -> String {
     format!(
-        "the {what} are those of this program with --seed {seed}, or some of them; a right program \
-         with its random numbers stores the same"
+        "the {what} are all or part of what this program produces with --seed {seed}; a correct \
+         program that draws the same random numbers produces them, too"
     )
 }
 

@@ -198,8 +198,8 @@ fn tell_twins(all: &mut [HandedIn]) {
             let names: Vec<_> = names.map(|other| all[*other].submission.name.clone()).collect();
             if !names.is_empty() {
                 all[*at].twins.push(format!(
-                    "the picture is the same, byte by byte, as that of {}; two right programs with \
-                     the same random numbers may write the same",
+                    "the picture is the same, byte by byte, as that of {}; two correct \
+                     programs with the same random numbers may produce the same",
                     names.join(", ")
                 ));
             }

@@ -192,7 +192,8 @@ fn twin_note(what: &str, others: &[usize], graded: &[Kept]) -> Option<String> {
     let names = names.collect::<Vec<_>>().join(", ");
     (!others.is_empty()).then(|| {
         format!(
-            "{what} of {names}; two right programs with the same random numbers may write the same"
+            "{what} of {names}; two correct programs with the same random numbers may produce the \
+             same"
         )
     })
 }
