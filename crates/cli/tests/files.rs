@@ -228,7 +228,7 @@ fn standard_input_and_powers_of_ten() {
 fn own_lists_are_told_to_the_course_alone() {
     let folder = folder();
     let list = write(folder.path().join("a.csv"), csv(5, 60_000));
-    let told = "this program with --seed 5";
+    let told = "this program produces with --seed 5";
     let grade = &grades(&[], &[&list])[0];
     assert_eq!(grade["verdict"], "correct");
     assert!(grade["for_course"][0].as_str().unwrap().contains(told), "{grade:#}");
@@ -248,7 +248,7 @@ fn own_lists_are_told_to_the_course_alone() {
     };
     for (seed, photons) in [(148, 1_000_000), (5, 100_000), (255, 3_000_000)] {
         let grade = picture(seed, photons);
-        let told = format!("this program with --seed {seed}");
+        let told = format!("this program produces with --seed {seed}");
         assert!(grade["for_course"][0].as_str().unwrap().contains(&told), "{grade:#}");
     }
     for (seed, photons) in [(5000, 1_000_000), (3008, 60_000)] {
