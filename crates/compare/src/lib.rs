@@ -10,17 +10,17 @@
 //! tell them. [`report`] puts it together; [`pictures`] compares pictures instead.
 
 pub mod alignment;
-pub mod conventions;
+mod conventions;
 pub mod differences;
-pub mod divergence;
+mod divergence;
 pub mod explain;
-pub mod explanation;
-pub mod fair;
+mod explanation;
+mod fair;
 mod fair_offsets;
-pub mod fair_search;
-pub mod known;
-pub mod measured_frame;
-pub mod numbering;
+mod fair_search;
+mod known;
+mod measured_frame;
+mod numbering;
 pub mod numbers;
 mod partners;
 pub mod pictures;
@@ -29,5 +29,5 @@ pub mod report;
 mod same_rows;
 mod text;
 mod tries;
-pub mod verdict;
-pub mod whole;
+mod verdict;
+mod whole;

@@ -24,7 +24,7 @@ mod direct;
 mod expectation;
 #[cfg(test)]
 mod fixtures;
-pub mod for_scene;
+mod for_scene;
 mod mesh;
 mod polygon;
 mod scene;

@@ -2,7 +2,7 @@
 //!
 //! The records themselves, their hash and their order are those of [`photon_mapping::photon_list`].
 
-pub mod csv;
+mod csv;
 mod dialect;
 pub mod error;
 pub mod ply;

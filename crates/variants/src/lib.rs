@@ -13,7 +13,7 @@ pub mod run;
 pub mod sampler;
 pub mod sampling;
 pub mod section;
-pub mod simulation;
+mod simulation;
 mod sobol;
 pub mod tracer;
 pub mod variation;
