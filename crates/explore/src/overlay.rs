@@ -34,12 +34,12 @@ impl ListComparison {
     pub(crate) fn add_columns(&self, columns: &mut PackedColumns, places: &[Option<u32>]) {
         let overlay = self.overlay(places);
         columns.bytes("kind", &overlay.kinds);
-        columns.words("moved_index", &overlay.moved_index);
+        columns.words("movedIndex", &overlay.moved_index);
         columns.vectors("moved", &overlay.moved);
         columns.vectors("extra", &overlay.extra);
-        columns.words("extra_photon", &overlay.extra_photon);
-        columns.shorts("extra_bounce", &overlay.extra_bounce);
-        columns.shorts("extra_surface", &overlay.extra_surface);
+        columns.words("extraPhoton", &overlay.extra_photon);
+        columns.shorts("extraBounce", &overlay.extra_bounce);
+        columns.shorts("extraSurface", &overlay.extra_surface);
     }
 
     /// The overlay; `places` has the place of each record of the reference among the page's

@@ -82,7 +82,7 @@ fn every_misreading_opens_where_it_differs() {
         assert!(lines < 200.0, "{name}: {lines}");
         // What is counted is what is drawn.
         let kinds = browser
-            .run("[0, 1, 2, 3].map((kind) => page.kinds.reduce((n, k) => n + (k === kind), 0))");
+            .run("[0, 1, 2, 3].map((kind) => page.run.dots.kind.reduce((n, k) => n + (k === kind), 0))");
         let counts = browser.run("page.run.comparison.counts");
         assert_eq!(kinds[0], counts["matched"], "{name}");
         assert_eq!(kinds[1], counts["missing"], "{name}");

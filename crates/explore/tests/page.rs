@@ -35,11 +35,10 @@ fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
 #[test]
 fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let Some(browser) = open_handout("") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     browser.run("document.getElementById('view').style.cssText = 'width: 640px; height: 480px'");
     browser.run(
         "const colors = document.getElementById('colors'); colors.value = 'red'; \
-         colors.dispatchEvent(new Event('input'))",
+         colors.dispatchEvent(new Event('input', { bubbles: true }))",
     );
     browser.click_on("#home");
     // The path and its labels would hide dots.
@@ -95,11 +94,10 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
 #[test]
 fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     // Close to the dot, so that no other is as near to the click.
     browser.run(
         "const stored = page.run.firstStored[page.run.pathOfPhoton(73)]; page.view.look({ target: \
-         [...page.positions.subarray(3 * stored, 3 * stored + 3)], distance: 0.3, yaw: 1.2, pitch: \
+         page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: \
          0 });",
     );
     browser.settle();
@@ -160,7 +158,6 @@ fn a_link_restores_its_step() {
 #[test]
 fn the_mouse_turns_zooms_and_centers() {
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
     let (yaw, distance) = (of_camera("yaw"), of_camera("distance"));
     browser.drag([200.0, 300.0], [300.0, 300.0]);
@@ -171,7 +168,7 @@ fn the_mouse_turns_zooms_and_centers() {
     browser.click_on("#home");
     browser.settle();
     // A double-click on a dot turns the box around it from then on.
-    let dot = "[...page.positions.subarray(0, 3)]";
+    let dot = "page.run.place(0)";
     browser.run(&format!(
         "page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); page.view.look({{ \
          target: page.view.camera.target.map((x) => x + 0.01) }})"
@@ -210,7 +207,7 @@ fn table_and_filters_show_what_they_say() {
         format!("{},{:03} photons shown: rightWall, bounce 2.", stored / 1000, stored % 1000);
     assert_eq!(shown(), number);
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
-    browser.run("document.querySelector('.filters').open = true");
+    browser.run("document.getElementById('filters').open = true");
     browser.click_on("#by-bounce input");
     let others = total.stored - total.by_bounce[0].stored;
     assert_eq!(shown(), format!("{},{:03} photons shown.", others / 1000, others % 1000));
@@ -218,7 +215,7 @@ fn table_and_filters_show_what_they_say() {
     browser.run(
         "for (const [id, value] of [['from', 73], ['to', 73]]) { const field = \
          document.getElementById(id); field.value = value; field.dispatchEvent(new \
-         Event('input')); }",
+         Event('input', { bubbles: true })); }",
     );
     assert_eq!(shown(), "1 photon shown.");
     browser.has_been_quiet();

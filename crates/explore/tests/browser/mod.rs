@@ -155,7 +155,7 @@ impl Browser {
         }
     }
 
-    /// Waits until what was asked for is drawn and no camera flies.
+    /// Waits until what was asked for is drawn.
     pub fn settle(&self) {
         let frame =
             "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
