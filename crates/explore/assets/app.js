@@ -50,13 +50,16 @@ class Page {
     const unchecked = (id) =>
       new Set([...$(id).querySelectorAll("input:not(:checked)")].map(({ value }) => +value));
     const [bounces, surfaces] = [unchecked("by-bounce"), unchecked("by-surface")];
+    const counts = run.comparison?.counts;
+    const kinds =
+      Object.keys(KIND_LOOKS).map((kind) => (counts ? `${thousands(counts[kind])} ${kind}` : kind));
     // For each way to color: the looks, their names in the legend, and a dot's look.
     const ways = {
       bounce: [BOUNCE_LOOKS, BOUNCES.map((bounce) => `bounce ${bounce}`), group],
       surface: [BOUNCE_LOOKS, run.surfaces.slice(0, 8).map(({ name }) => name),
         (dot) => dots.surface[dot] % 4],
       red: [[["red", "circle"]], ["stored photon"], () => 0],
-      kind: [Object.values(KIND_LOOKS), Object.keys(KIND_LOOKS), (dot) => dots.kind[dot]],
+      kind: [Object.values(KIND_LOOKS), kinds, (dot) => dots.kind[dot]],
     };
     const [styles, legend, styleOf] = ways[mode];
     const codes = styles.map((style) => look(...style));
@@ -67,7 +70,8 @@ class Page {
       bounces.has(group(dot)) || surfaces.has(dots.surface[dot]) || (only && !isIn(only, dot)) ||
       (isRange && (dots.photon[dot] < from || dots.photon[dot] > to ||
         dots.photon[dot] === UNTOLD));
-    const isLarge = mode === "kind" && run.differing <= MOST_LARGE;
+    const isLarge = counts && mode === "kind" &&
+      counts.missing + counts.moved + counts.extra <= MOST_LARGE;
     const looks = (this.looks = new Uint8Array(2 * dots.count));
     let shown = 0;
     for (let dot = 0; dot < (mode === "kind" ? dots.count : run.stored); dot++) {

@@ -8,7 +8,7 @@ const boxMethods = {
       [new Float32Array(run.faces.flatMap((face) =>
         face.triangles.flatMap(corners).flatMap((corner) => value(face, corner)))), 3];
     const places = column((_, corner) => corner);
-    view.setLayer("surfaces", places[0].length / 3, [
+    view.setLayer("surfaces", "surfaces", places[0].length / 3, [
       places, column((face) => face.normal), column((face) => run.surfaces[face.surface].diffuse),
     ]);
     view.light = run.lights[0].position;

@@ -29,8 +29,7 @@ const countsMethods = {
   },
 
   showComparison() {
-    const { comparison, dots } = this.run;
-    this.run.differing = dots.kind.reduce((count, kind) => count + (kind > 0), 0);
+    const { comparison } = this.run;
     if (!comparison) return;
     $("comparison").hidden = false;
     $("comparison").open = window.matchMedia("(min-width: 901px) and (min-height: 501px)").matches;
@@ -38,9 +37,6 @@ const countsMethods = {
     for (const id of ["verdict", "reason", "advice", "report"])
       $(id).replaceChildren(...prose(comparison[id]));
     $("divergence").hidden = comparison.photon === null;
-    if (comparison.counts)
-      $("differences").append(...Object.entries(KIND_LOOKS).map(([kind, style]) =>
-        make("li", {}, swatch(...style), ` ${thousands(comparison.counts[kind])} ${kind}`)));
   },
 
   showTable() {
@@ -80,7 +76,7 @@ const countsMethods = {
       const className = Math.abs(z) > 4 ? "far" : "";
       words.push(make("span", { className }, `${z < 0 ? "−" : "+"}${Math.abs(z).toFixed(1)} σ`));
     }
-    const button = make("button", { type: "button", ariaPressed: "false" }, ...words);
+    const button = make("button", { ariaPressed: "false" }, ...words);
     const light = (lit) => () => {
       this.lit = lit;
       this.showDots();

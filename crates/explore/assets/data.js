@@ -116,17 +116,6 @@ class Run {
     return vectorOf(this.dots.position, dot);
   }
 
-  /** The path of `photon`, or -1. */
-  pathOfPhoton(photon) {
-    let [low, high] = [0, this.paths];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.photons[middle] < photon) low = middle + 1;
-      else high = middle;
-    }
-    return this.photons[low] === photon ? low : -1;
-  }
-
   /** The story of path `path`: what `explain --json` prints. */
   story(path) {
     const rand = photonRandom(this.seed, this.photons[path]);

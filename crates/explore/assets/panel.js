@@ -24,7 +24,7 @@ const panelMethods = {
 
   /** Opens `photon` at the step `name` of `bounce`, or as near to it as its path goes. */
   open(photon, bounce, name) {
-    const { run } = this, path = run.pathOfPhoton(photon);
+    const { run } = this, path = run.photons.indexOf(photon);
     if (photon >= run.emitted)
       return this.say(`Expected a number below ${thousands(run.emitted)}, found ${photon}.`);
     if (path < 0) {
@@ -71,7 +71,7 @@ const panelMethods = {
   /** Goes to the photon `by` stored paths on. */
   skip(by) {
     const { run } = this, { bounce, name } = this.steps[this.at];
-    let path = run.pathOfPhoton(this.photon) + by;
+    let path = run.photons.indexOf(this.photon) + by;
     // A path of one hit or none stores nothing.
     while (run.pathHits[path] < 2) path += by;
     if (path >= 0 && path < run.paths) this.open(run.photons[path], bounce, name);
@@ -116,7 +116,7 @@ const panelMethods = {
     const { steps, at, run, story: { hits, ending } } = this;
     const here = steps[at], last = steps.length - 1;
     const chip = (words, isHere, onclick) => {
-      const button = make("button", { type: "button", onclick }, words);
+      const button = make("button", { onclick }, words);
       if (isHere) button.setAttribute("aria-current", "step");
       return button;
     };

@@ -33,6 +33,8 @@ function compile(gl, vertex, fragment) {
 class View {
   /** So many pixels a side are looked at around a click. */
   static PICK = 25;
+  /** So many dots are drawn in no time. */
+  static QUICK = 20_000;
   wallAlpha = 1;
   /** How opaque dots are that are not lit. */
   dim = 1;
@@ -48,17 +50,19 @@ class View {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
     if (!gl) throw new Error("no WebGL2");
     Object.assign(this, { canvas, onDraw, gl });
-    this.surfaceProgram = compile(gl, SURFACE_VERTEX, SURFACE_FRAGMENT);
-    this.dotProgram = compile(gl, DOT_VERTEX, DOT_FRAGMENT);
-    this.lineProgram = compile(gl, LINE_VERTEX, LINE_FRAGMENT);
+    this.programs = {
+      surfaces: compile(gl, SURFACE_VERTEX, SURFACE_FRAGMENT),
+      dots: compile(gl, DOT_VERTEX, DOT_FRAGMENT),
+      lines: compile(gl, LINE_VERTEX, LINE_FRAGMENT),
+    };
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
-  /** Makes the layer `name` of `count` entries from columns: arrays, and how many of their numbers
-   * an entry has. An entry is a vertex, or with `step` 1 an instance. */
-  setLayer(name, count, columns, step = 0) {
+  /** Makes the layer `name` of `count` surfaces, dots or lines (its `kind`) from columns: arrays,
+   * and how many of their numbers an entry has. An entry is a vertex, or one line. */
+  setLayer(name, kind, count, columns) {
     const { gl } = this;
-    const layer = (this.layers[name] ??= { vao: gl.createVertexArray(), buffers: [] });
+    const layer = (this.layers[name] ??= { kind, vao: gl.createVertexArray(), buffers: [] });
     layer.count = count;
     gl.bindVertexArray(layer.vao);
     columns.forEach(([array, size], index) => {
@@ -71,7 +75,7 @@ class View {
       if (array instanceof Uint8Array)
         gl.vertexAttribIPointer(index, size, gl.UNSIGNED_BYTE, 0, 0);
       else gl.vertexAttribPointer(index, size, type, true, 0, 0);
-      gl.vertexAttribDivisor(index, step);
+      gl.vertexAttribDivisor(index, kind === "lines" ? 1 : 0);
     });
     gl.bindVertexArray(null);
     this.draw();
@@ -80,25 +84,26 @@ class View {
   /** Shows dots at `positions`. A look is a palette entry and a shape, then 0 hidden, 1 plain,
    * 2 lit or 3 large. `normals` has the normals of the dots' faces in signed bytes. */
   setDots(positions, looks, normals) {
-    this.setLayer("dots", looks.length / 2, [[positions, 3], [looks, 2], [normals, 3]]);
+    const columns = [[positions, 3], [looks, 2], [normals, 3]];
+    this.setLayer("dots", "dots", looks.length / 2, columns);
   }
 
   /** Draws larger dots over all others: of {at, color, shape}. */
   setMarks(marks) {
     const places = new Float32Array(marks.flatMap(({ at }) => [...at]));
     const looks = new Uint8Array(marks.flatMap(({ color, shape }) => [look(color, shape), 1]));
-    this.setLayer("marks", marks.length, [[places, 3], [looks, 2]]);
+    this.setLayer("marks", "dots", marks.length, [[places, 3], [looks, 2]]);
   }
 
   /** Draws lines of {a, b, color, width, dash, alpha}, lengths in pixels, as the layer `name`. */
   setLines(name, lines) {
     const column = (size, numbers) => [new Float32Array(lines.flatMap(numbers)), size];
-    this.setLayer(name, lines.length, [
+    this.setLayer(name, "lines", lines.length, [
       column(3, ({ a }) => [...a]),
       column(3, ({ b }) => [...b]),
       column(4, ({ color, alpha = 1 }) => [...this.palette[COLORS.indexOf(color)], alpha]),
       column(2, ({ width = 1.5, dash = 0 }) => [width, dash]),
-    ], 1);
+    ]);
   }
 
   /** Sets the camera: its target, its angles in radians, its distance, its picture's height. */
@@ -114,8 +119,9 @@ class View {
   keepPace() {
     const now = performance.now(), since = now - this.drawn;
     const isMoving = this.moved > this.drawn || now - this.moved < 150;
+    const least = Math.min(1, View.QUICK / this.layers.dots.count);
     if (isMoving && since < 1000)
-      this.pace = clamp(this.pace * clamp(42 / since, 0.6, 1.15), 0.02, 1);
+      this.pace = clamp(this.pace * clamp(42 / since, 0.6, 1.15), least, 1);
     this.part = isMoving ? this.pace : 1;
     this.drawn = now;
     clearTimeout(this.rest);
@@ -183,19 +189,18 @@ class View {
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     const uniforms = this.uniforms();
-    if (this.wallAlpha === 1) this.drawSurfaces(uniforms);
-    this.drawDots("dots", uniforms, this.dim < 1, this.part);
-    this.drawLines("edges", uniforms);
-    if (this.wallAlpha < 1) {
-      gl.depthMask(false);
-      this.drawSurfaces(uniforms);
-      gl.depthMask(true);
-    }
-    this.drawLines("moved", uniforms);
+    if (this.wallAlpha === 1) this.drawLayer("surfaces", uniforms, false);
+    // Paths are in no order, so the first part of the dots is spread evenly.
+    this.drawLayer("dots", uniforms, this.dim < 1, this.part);
+    this.drawLayer("edges", uniforms);
+    gl.depthMask(false);
+    if (this.wallAlpha < 1) this.drawLayer("surfaces", uniforms);
+    this.drawLayer("moved", uniforms);
     // A path is seen through walls.
     gl.disable(gl.DEPTH_TEST);
-    this.drawLines("path", uniforms);
-    this.drawDots("marks", { ...uniforms, least: 13 * ratio, most: 13 * ratio, dim: 1 }, true);
+    this.drawLayer("path", uniforms);
+    this.drawLayer("marks", { ...uniforms, least: 13 * ratio, most: 13 * ratio, dim: 1 });
+    gl.depthMask(true);
     this.onDraw();
   }
 
@@ -220,31 +225,17 @@ class View {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
-  drawSurfaces(uniforms) {
-    this.drawLayer("surfaces", this.surfaceProgram, uniforms, this.wallAlpha < 1, (count) =>
-      this.gl.drawArrays(this.gl.TRIANGLES, 0, count));
-  }
-
-  /** Draws the first `part` of the dots. Paths are in no order, so it is spread evenly. */
-  drawDots(name, uniforms, blend, part = 1) {
-    this.drawLayer(name, this.dotProgram, uniforms, blend, (count) =>
-      this.gl.drawArrays(this.gl.POINTS, 0, Math.ceil(count * part)));
-  }
-
-  drawLines(name, uniforms) {
-    this.drawLayer(name, this.lineProgram, uniforms, true, (count) =>
-      this.gl.drawArraysInstanced(this.gl.TRIANGLE_STRIP, 0, 4, count));
-  }
-
-  drawLayer(name, { program, set }, uniforms, blend, draw) {
+  drawLayer(name, uniforms, blend = true, part = 1) {
     const { gl } = this;
-    const layer = this.layers[name];
-    if (!layer?.count) return;
+    const { kind, vao, count } = this.layers[name] ?? {};
+    if (!count) return;
+    const { program, set } = this.programs[kind];
     gl.useProgram(program);
     set(uniforms);
     gl[blend ? "enable" : "disable"](gl.BLEND);
-    gl.bindVertexArray(layer.vao);
-    draw(layer.count);
+    gl.bindVertexArray(vao);
+    if (kind === "lines") gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    else gl.drawArrays(kind === "dots" ? gl.POINTS : gl.TRIANGLES, 0, Math.ceil(count * part));
     gl.bindVertexArray(null);
   }
 
@@ -264,10 +255,9 @@ class View {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.colorMask(false, false, false, false);
-    if (this.wallAlpha === 1) this.drawSurfaces(uniforms);
+    if (this.wallAlpha === 1) this.drawLayer("surfaces", uniforms, false);
     gl.colorMask(true, true, true, true);
-    const picked = { pick: 1, shift: [0, 0], least: 5 };
-    this.drawDots("dots", { ...uniforms, ...picked }, false);
+    this.drawLayer("dots", { ...uniforms, pick: 1, shift: [0, 0], least: 5 }, false);
     const pixels = new Uint8Array(4 * side * side);
     gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     this.draw();
