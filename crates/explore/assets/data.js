@@ -56,7 +56,7 @@ function photonRandom(seed, photon) {
 /** A run of the reference: its paths, all dots, and the story of each path. */
 class Run {
   constructor(meta, columns) {
-    Object.assign(this, meta, columns);
+    Object.assign(this, meta, meta.scene, columns);
     this.paths = this.pathHits.length;
     // For each path: its photon, and where its hits, stored photons and directions begin.
     this.photons = new Uint32Array(this.paths);

@@ -34,20 +34,16 @@ function stepsOf(run, story) {
 }
 
 function emissionStep({ tries, direction }) {
-  const last = tries.length - 1, rejected = last;
-  const [x, y, z] = tries[last].map(digits);
-  const [lies, they] = rejected === 1 ? ["lies", "it is"] : ["lie", "they are"];
+  const last = tries.length - 1, [x, y, z] = tries[last].map(digits);
   const square = (xyz) => digits(lengthSquared(xyz));
   return {
     bounce: 0,
     name: "emission",
     holds: { in_sphere: true },
     say: [
-      rejected === 0
-        ? "The first point drawn in the cube lies in the sphere, so it is taken."
-        : `${rejected} of ${tries.length} points drawn in the cube ${lies} outside the sphere, ` +
-          `so ${they} rejected. The last one is taken.`,
-      "Normalized, it is the direction in which the photon leaves the light.",
+      "Points are drawn in the cube until one lies in the sphere. " +
+        `Here ${last === 0 ? "the first one does" : `${last} of ${tries.length} are rejected`}.`,
+      "The last point, normalized, is the direction in which the photon leaves the light.",
     ],
     values: {
       loop: `runs ${last === 0 ? "once" : `${tries.length} times`}`, x, y, z,

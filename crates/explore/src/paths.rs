@@ -9,6 +9,7 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::numerics::LARGE_EPSILON;
 use rayon::prelude::*;
+use serde::Serialize;
 use serde_json::{Value, json};
 use variants::run::Run;
 
@@ -22,22 +23,24 @@ const MOST_STORED: usize = 1_000_000;
 const MOST_STORIES_OF_OTHERS: usize = 20_000;
 
 /// What the page reads of a run.
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Paths {
     /// The packed numbers.
+    #[serde(skip)]
     pub columns: PackedColumns,
     /// The photon on which the page opens.
-    pub start: u64,
+    start: u64,
     pub surfaces: Vec<PageSurface>,
-    pub faces: Vec<PageFace>,
-    pub lights: Vec<Value>,
-    pub camera: Value,
+    faces: Vec<PageFace>,
+    lights: Vec<Value>,
+    camera: Value,
     /// The scene's longest edge, in world units.
-    pub size: f32,
+    size: f32,
     /// The edge of the cube in which the picture looks for a photon, in world units.
-    pub dot_size: f32,
+    dot_size: f32,
     /// How far along the normal each scattered ray starts, where that is the same for all.
-    pub offset: Option<f32>,
+    offset: Option<f32>,
 }
 
 impl Paths {

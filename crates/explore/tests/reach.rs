@@ -99,19 +99,12 @@ fn it_works_on_a_phone() {
 #[test]
 fn box_story_and_code_are_seen_at_once_on_a_phone() {
     let Some(browser) = launch(true) else { return };
-    let edges = |selector: &str| {
-        let [top, bottom] = ["top", "bottom"].map(|edge| {
-            let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
-            float(&browser.run(&format!("{node}.{edge}")))
-        });
-        (top, bottom)
-    };
     for (width, height) in [(390, 844), (844, 390)] {
         browser.size(width, height);
         for step in ["hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
             browser.open(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
             let is_in_sight = |selector: &str| {
-                let (top, bottom) = edges(selector);
+                let [_, top, _, bottom] = browser.edges(selector);
                 let place = format!("{selector}, {step} at {width} x {height}: {top} to {bottom}");
                 assert!(top >= 0.0 && bottom <= f64::from(height), "{place}");
             };
@@ -121,15 +114,12 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
             browser.run("document.querySelector('#code').scrollIntoView({ block: 'end' })");
             assert!(float(&browser.run("window.scrollY")) > 0.0);
             is_in_sight("#forward");
-            assert_eq!(edges("#stage").0, 0.0, "{step} at {width} x {height}");
+            assert_eq!(browser.edges("#stage")[1], 0.0, "{step} at {width} x {height}");
         }
     }
     let before = browser.text("page.link");
-    let (top, bottom) = edges("#back");
-    browser.tap(
-        float(&browser.run("document.querySelector('#back').getBoundingClientRect().x")) + 9.0,
-        (top + bottom) / 2.0,
-    );
+    let [left, top, ..] = browser.edges("#back");
+    browser.tap(left + 9.0, top + 9.0);
     browser.wait_for(&format!("page.link !== '{before}'"));
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=frame");
     browser.has_been_quiet();
@@ -139,7 +129,7 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
 fn without_webgl_the_rest_works() {
     let Some(browser) = launch(false) else { return };
     browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
-    assert!(browser.text("document.getElementById('trouble').textContent").contains("WebGL"));
+    assert!(browser.text_of("#trouble").contains("WebGL"));
     browser.wait_for("document.getElementById('picture').naturalWidth === 640");
     assert_eq!(browser.run("document.getElementById('view').hidden"), true);
     browser.press("ArrowRight");
@@ -156,10 +146,8 @@ fn two_fingers_zoom_and_one_turns() {
     browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
     let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
     let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
-    let place = "(() => { const r = page.view.canvas.getBoundingClientRect(); \
-                 return [r.x + r.width / 2, r.y + r.height / 2]; })()";
-    let place = browser.run(place);
-    browser.pinch(float(&place[0]), float(&place[1]), 80.0, 160.0);
+    let [left, top, right, bottom] = browser.edges("#view");
+    browser.pinch((left + right) / 2.0, (top + bottom) / 2.0, 80.0, 160.0);
     let halved = of_camera("distance") / distance;
     assert!((halved - 0.5).abs() < 0.05, "{halved}");
     assert_eq!(of_camera("yaw"), yaw);
@@ -174,12 +162,10 @@ fn it_fills_a_projector() {
     browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
     let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
     assert_eq!(browser.run(is_too_wide), false);
-    let edge = |selector: &str, edge: &str| {
-        let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
-        float(&browser.run(&format!("{node}.{edge}")))
-    };
-    assert!(edge("#view", "width") > 900.0, "{}", edge("#view", "width"));
-    assert!(edge("#code .lit", "bottom") < 1080.0, "{}", edge("#code .lit", "bottom"));
+    let [left, _, right, _] = browser.edges("#view");
+    assert!(right - left > 900.0, "{}", right - left);
+    let [.., bottom] = browser.edges("#code .lit");
+    assert!(bottom < 1080.0, "{bottom}");
     browser.has_been_quiet();
 }
 
