@@ -129,25 +129,14 @@ class Page {
     };
     for (const [id, action] of Object.entries(buttons)) $(id).onclick = action;
     $("left").oninput = () => this.showDots();
-    const openNumber = () => this.open(Number($("photon").value), 0, "emission");
-    $("photon").onchange = openNumber;
-    $("choose").onsubmit = (event) => {
-      event.preventDefault();
-      openNumber();
-    };
+    $("photon").onchange = () => this.open(Number($("photon").value), 0, "emission");
     $("slider").oninput = () => this.go(Number($("slider").value));
     window.onhashchange = () => this.followLink();
     theme.onchange = () => this.readColors();
+    // Buttons name their keys themselves.
     const keys = {
-      ArrowLeft: buttons.back,
-      ArrowRight: buttons.forward,
       ArrowUp: () => this.goToBounce(this.steps[this.at].bounce - 1),
       ArrowDown: () => this.goToBounce(this.steps[this.at].bounce + 1),
-      " ": buttons.play,
-      n: buttons.next,
-      p: buttons.previous,
-      h: buttons.home,
-      c: buttons.center,
       "+": () => this.mouse?.zoom(0.85),
       "=": () => this.mouse?.zoom(0.85),
       "-": () => this.mouse?.zoom(1.18),
@@ -160,9 +149,12 @@ class Page {
       const isPressed = key === " " && target.matches("button, summary, input");
       const isCommand = event.ctrlKey || event.metaKey || event.altKey;
       if (isField || isPressed || isCommand || !this.steps.length) return;
+      const name = key === " " ? "Space" : key.length === 1 ? key.toUpperCase() : key;
+      const button = document.querySelector(`[aria-keyshortcuts="${CSS.escape(name)}"]`);
       const turn = event.shiftKey && turns[key];
       if (turn) this.mouse?.turn(...turn);
       else if (keys[key]) keys[key]();
+      else if (button) button.click();
       else return;
       event.preventDefault();
     };
