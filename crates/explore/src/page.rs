@@ -111,7 +111,7 @@ fn meta(exploration: &Exploration, paths: &Paths) -> String {
         "rows": rows,
         "scene": paths,
         "picture": format!("data:image/png;base64,{}", STANDARD.encode(png)),
-        "comparison": exploration.comparison.map(|comparison| comparison.meta(paths.surfaces.len())),
+        "comparison": exploration.comparison.map(|it| it.meta(paths.surfaces.len())),
         "source": serde_json::from_str::<Value>(SOURCE).expect("the build script wrote JSON"),
         "sections": paths.columns.sections(),
     });

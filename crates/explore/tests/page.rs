@@ -92,9 +92,8 @@ fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
     // Close to the dot, so that no other is as near to the click.
     browser.run(
-        "const stored = page.run.firstStored[page.run.photons.indexOf(73)]; page.view.look({ target: \
-         page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: \
-         0 });",
+        "const stored = page.run.firstStored[page.run.photons.indexOf(73)]; page.view.look({ \
+         target: page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: 0 });",
     );
     browser.settle();
     let place = browser.run(
