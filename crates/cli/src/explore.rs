@@ -4,18 +4,14 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use explore::Exploration;
 use explore::comparison::{ListComparison, Other};
-use explore::misreading;
+use explore::{Exploration, list_of, misreading, stored};
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use oracle::summary::Tally;
-use photon_list::reader::{self, PhotonList};
-use photon_list::record::Columns;
+use photon_list::reader;
 use photon_mapping::assignment8::{self, HEIGHT, WIDTH};
-use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_map::PhotonMap;
-use variants::run::Run;
 
 use super::beside_expected::beside_expected;
 use super::error::{CliError, print};
@@ -65,7 +61,7 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
     if misreading.is_some_and(misreading::needs_few_bounces) && !is_set {
         run.renderer.max_photon_bounces = misreading::FEW_BOUNCES;
     }
-    let records = trace(&run);
+    let records = stored(&run, 0..emitted);
     let mut tally = Tally::new(run.scene().mesh_objects().iter().map(|mesh| mesh.name.clone()));
     records.iter().for_each(|record| tally.add(record));
     let is_handout = arguments.run.scene.is_built_in();
@@ -81,11 +77,11 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         }
         (None, Some(name)) => {
             let traced = misreading::trace(name, &run);
-            traced.map(|(misreading, records)| (Other::Misreading(misreading), list(records)))
+            traced.map(|(misreading, records)| (Other::Misreading(misreading), list_of(records)))
         }
         (None, None) => None,
     };
-    let reference = || list(records.clone());
+    let reference = || list_of(records.clone());
     let comparison = other.map(|(other, list)| ListComparison::new(other, reference(), list, &run));
 
     let places = records.iter().map(|record| record.position.as_dvec3());
@@ -109,21 +105,4 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
     file.persist()?;
     print(&(path + "\n"))?;
     Ok(0)
-}
-
-fn trace(run: &Run) -> Vec<PhotonRecord> {
-    let mut records = Vec::new();
-    let traced: Result<_, std::convert::Infallible> =
-        run.trace_list(0..run.renderer.emitted(), |piece, _| {
-            records.extend_from_slice(piece);
-            Ok(())
-        });
-    let Ok(_) = traced;
-    records
-}
-
-fn list(records: Vec<PhotonRecord>) -> PhotonList {
-    let columns =
-        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-    PhotonList { columns, records }
 }

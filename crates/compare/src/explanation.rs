@@ -1,6 +1,6 @@
 //! Does a fair way to do the assignment explain the differences?
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::alignment::{Pairing, align};
 use super::differences::Difference;
@@ -8,10 +8,15 @@ use super::divergence::Lists;
 use super::fair::Fair;
 use super::fair_search::{LONGEST_OFFSET, Search, Window};
 use super::known::KnownRun;
+use super::position_index::is_near;
 use super::tries::other_emissions;
 use crate::report::scene_size;
 use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
+use variants::hypotheses::Hypothesis;
+use variants::misreadings::misreadings;
 use variants::section::Section;
+use variants::variation::Simulation;
 
 /// So many of the photons that differ are traced again under every reading.
 const SAMPLE: usize = 150;
@@ -25,6 +30,8 @@ const AROUND: usize = 4;
 const SAME_DRAWS: f32 = 0.9;
 /// Where a smaller part of them hit anything, the draws differ.
 const SAME_EMISSION: f32 = 0.5;
+/// So many photons are emitted again under every misreading of the emission.
+const FIRST_PHOTONS: u64 = 20_000;
 
 /// The fair way that explains differences.
 #[derive(Clone, Debug)]
@@ -117,9 +124,34 @@ pub fn has_other_draws(known: &KnownRun, lists: &Lists) -> bool {
         let others = other_emissions(fair.tries);
         let mut others = others.into_iter().map(|(tries, _)| Fair { tries, ..fair });
         return search.hitting_part(&fair, &photons) < SAME_EMISSION
-            && others.all(|other| search.scattered_part(&other, &photons) < 0.9);
+            && others.all(|other| search.scattered_part(&other, &photons) < 0.9)
+            && !is_emitted_by_a_misreading(known, lists);
     }
     true
+}
+
+/// Whether most photons of the submission, which tells them, are stored first where a misreading of
+/// the emission stores them with the run's random numbers.
+fn is_emitted_by_a_misreading(known: &KnownRun, lists: &Lists) -> bool {
+    let renderer = &known.run.renderer;
+    let [emitted, seed] = [renderer.emitted(), renderer.seed];
+    let mut first = HashMap::new();
+    for record in &lists.submission.records {
+        first.entry(record.photon).or_insert(record.position);
+    }
+    let is_of_emission = |hypothesis: &Hypothesis| {
+        hypothesis.misreading.is_some_and(|it| it.section == Section::PhotonEmission)
+    };
+    misreadings().into_iter().filter(is_of_emission).any(|Hypothesis { variation, .. }| {
+        let simulation = Simulation::new(variation, seed, emitted, renderer.max_photon_bounces);
+        let traced = simulation.trace(0..emitted.min(FIRST_PHOTONS));
+        let paths: Vec<_> = traced.chunk_by(|a, b| a.photon == b.photon).collect();
+        let is_same = |path: &&&[PhotonRecord]| {
+            let found = first.get(&path[0].photon);
+            found.is_some_and(|place| is_near(*place, path[0].position, lists.tolerance))
+        };
+        2 * paths.iter().filter(is_same).count() > paths.len()
+    })
 }
 
 /// Whether the directions of most records lead back to a light: rays start there again.

@@ -53,9 +53,15 @@ pub struct Link {
 }
 
 /// The ways in which the records of `list` may lead back to the photons of `run`, the surest first;
-/// none where the list tells its photons already, or has no directions.
+/// none where the list tells its photons already, or has no directions. Positions that are no
+/// numbers would be left out, and they are what is wrong.
 pub fn links(run: &Run, list: &PhotonList) -> Vec<Link> {
-    if list.columns.photon || !list.columns.to_light || list.records.is_empty() {
+    let has_direction =
+        |record: &PhotonRecord| record.to_light.is_finite() && record.to_light != Vec3::ZERO;
+    let leads_back = list.columns.to_light
+        && list.records.iter().all(|record| record.position.is_finite())
+        && list.records.iter().any(has_direction);
+    if list.columns.photon || !leads_back {
         return Vec::new();
     }
     let Some(fair) = Fair::of(run) else { return Vec::new() };
@@ -177,6 +183,9 @@ fn photons_of(run: &Run, list: &PhotonList, link: &Link) -> Option<Vec<Option<(u
             let (photon, hit) = first[*hit];
             let is_direct = hit.incoming.dot(back) < -0.9999;
             return if is_direct { Previous::Itself(photon) } else { Previous::First(photon) };
+        }
+        if back == Vec3::ZERO || !record.position.is_finite() {
+            return Previous::None;
         }
         // Starts lie on the line back, near its ends.
         let steps_near = |normal: Vec3| {

@@ -48,6 +48,19 @@ pub enum Outcome {
     Different,
 }
 
+/// Whether the submission draws the reference's random numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RandomNumbers {
+    /// Nothing speaks against it.
+    #[default]
+    Same,
+    /// Hardly a record matches, and the list does not tell its photons.
+    PerhapsOther,
+    /// It draws others. Where two photons part then tells nothing.
+    Other,
+}
+
 /// The comparison of two lists.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
@@ -61,6 +74,8 @@ pub struct Report {
     pub sha256: Option<String>,
     /// How far apart two positions may be that count as one, in world units.
     pub tolerance: f32,
+    /// Whether the lists can be compared photon by photon.
+    pub random_numbers: RandomNumbers,
     /// In what the lists differ.
     #[serde(flatten)]
     pub differences: Differences,
@@ -102,6 +117,7 @@ pub fn compare(
         submission_records: submission.records.len() as u64,
         sha256: None,
         tolerance,
+        random_numbers: RandomNumbers::Same,
         differences: Differences::default(),
         first_divergence: None,
         reading: None,
@@ -289,12 +305,7 @@ impl Report {
         let lists = compared.lists(reference, list);
         self.add_divergence(&lists, &compared.differing, Some(&known));
         if has_other_draws(&known, &lists) {
-            self.uncertain(list.columns.photon);
-            let differ = if list.columns.photon { "differ" } else { "may differ" };
-            self.add_note(&format!(
-                "the random numbers {differ}: a list with another generator, seed or order of \
-                 draws can be compared only by its statistics, as grade does"
-            ));
+            self.has_other_numbers(list.columns.photon);
         }
     }
 
@@ -312,7 +323,7 @@ impl Report {
         known: Option<&KnownRun>,
     ) {
         let mut divergence = lists.first_divergence(differing, known);
-        if let Some(whole) = known.and_then(|known| judge_whole(lists, differing, known.run)) {
+        if let Some(whole) = known.and_then(|known| judge_whole(lists, differing, known)) {
             divergence.section = Some(whole.section);
             divergence.reason = Some(whole.reason);
             divergence.certain = whole.is_certain;
@@ -320,14 +331,14 @@ impl Report {
         self.first_divergence = Some(divergence);
     }
 
-    /// Takes back what was said of the first divergence; its section, too, if photons are not told.
-    fn uncertain(&mut self, has_photons: bool) {
-        if let Some(divergence) = &mut self.first_divergence {
-            if !(divergence.certain || has_photons) {
-                (divergence.section, divergence.reason) = (None, None);
-            }
-            divergence.certain = false;
-        }
+    /// Takes back what was said of the first divergence. If photons are not told, what is sure of
+    /// one of them may be true.
+    fn has_other_numbers(&mut self, tells_photons: bool) {
+        self.random_numbers =
+            if tells_photons { RandomNumbers::Other } else { RandomNumbers::PerhapsOther };
+        let divergence = self.first_divergence.take();
+        let kept = divergence.filter(|divergence| divergence.certain && !tells_photons);
+        self.first_divergence = kept.map(|kept| Divergence { certain: false, ..kept });
     }
 
     /// Adds `note` to what is noted already.

@@ -5,7 +5,32 @@ use std::fmt::Write as _;
 use super::differences::Differences;
 use super::divergence::Divergence;
 use super::numbers::{short, thousands};
-use super::report::{Outcome, Report};
+use super::report::{Outcome, RandomNumbers, Report};
+
+impl RandomNumbers {
+    /// What this means for a comparison, and what to do; nothing where it needs no words.
+    pub fn told(self) -> Option<[&'static str; 2]> {
+        let meaning = match self {
+            Self::Same => return None,
+            Self::Other => {
+                "The two lists draw different random numbers, so they cannot be compared photon \
+                 by photon.\nThe seed, the generator, the order of draws or the emission is \
+                 another."
+            }
+            Self::PerhapsOther => {
+                "Hardly a record is in both lists, as if they drew different random numbers: \
+                 of another seed or\ngenerator, or in another order. Such lists cannot be compared \
+                 photon by photon."
+            }
+        };
+        Some([
+            meaning,
+            "Run photon-mapping grade on the submission: it judges a list by its statistics.\nTo \
+             compare photon by photon, draw the reference's numbers with \
+             interop/cpp/reference_rand.hpp.",
+        ])
+    }
+}
 
 impl Report {
     /// The report as text.
@@ -30,6 +55,9 @@ impl Report {
             Outcome::WithinTolerance | Outcome::Different => {}
         }
         let word = match self.outcome {
+            Outcome::Different if self.random_numbers == RandomNumbers::Other => {
+                "other random numbers"
+            }
             Outcome::Different => "different",
             _ => "the same but for the few that may differ",
         };
@@ -39,7 +67,13 @@ impl Report {
             records(self.reference_records),
             thousands(self.submission_records),
         );
-        text += &counts(differences, self.tolerance);
+        // Which photons of other numbers come to lie upon each other is chance.
+        if self.random_numbers != RandomNumbers::Other {
+            text += &counts(differences, self.tolerance);
+        }
+        if let Some([meaning, advice]) = self.random_numbers.told() {
+            text += &format!("\n{meaning}\n{advice}\n");
+        }
         if let Some(divergence) = &self.first_divergence {
             text += &divergence.text();
         }

@@ -10,7 +10,7 @@ use super::tries::other_emissions;
 use crate::explain::{Ending, Hit, Story};
 use crate::report::scene_size;
 use photon_mapping::photon_list::PhotonRecord;
-use photon_mapping::rendering::sampling::sample_hemisphere;
+use photon_mapping::rendering::sampling::{CLOSE_TO_PARALLEL, sample_hemisphere};
 use variants::misreadings::{Numbers, directions};
 use variants::section::Section;
 
@@ -88,7 +88,7 @@ pub fn judge(observation: &Parting) -> Cause {
     // Where lists number bounces in different ways, the path may be shorter than the number says.
     let previous = &story.hits[bounce.clamp(1, story.hits.len()) - 1];
     if !record.position.is_finite() {
-        return judge_not_finite(previous);
+        return judge_not_finite(Some(previous));
     }
     let to_light = unit(record.to_light).filter(|_| observation.has_true_to_light);
     if is_near(record.position, first.point(), tolerance) {
@@ -175,10 +175,16 @@ fn judge_missing(observation: &Parting) -> Cause {
     )
 }
 
-fn judge_not_finite(previous: &Hit) -> Cause {
+/// Whether (1, 0, 0) builds no t at `hit`.
+pub(crate) fn has_parallel_normal(hit: &Hit) -> bool {
+    hit.normal[0].abs() > CLOSE_TO_PARALLEL
+}
+
+/// Judges a position that is no number after the hit `previous`, if that is known.
+pub(crate) fn judge_not_finite(previous: Option<&Hit>) -> Cause {
     let section = Section::HemisphereRayTransformation;
-    let [x, y, z] = previous.normal;
-    if x.abs() > 0.99 {
+    if let Some(hit) = previous.filter(|hit| has_parallel_normal(hit)) {
+        let [x, y, z] = hit.normal;
         let reason = format!(
             "the normal ({x}, {y}, {z}) is parallel to (1, 0, 0), so that t has no length, and \
              normalizing it gives NaN"

@@ -5,17 +5,30 @@ use std::collections::HashSet;
 use super::alignment::Pairing;
 use super::differences::Difference;
 use super::divergence::Lists;
+use super::known::KnownRun;
 use super::numbers::thousands;
-use super::verdict::Cause;
-use variants::run::Run;
+use super::verdict::{Cause, has_parallel_normal, judge_not_finite};
+use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
 use variants::section::Section;
 
 /// So many records beyond a bounce must be missing before it is called a limit without doubt.
 const ENOUGH_BEYOND: usize = 5;
 
-/// The verdict on the lists as a whole, if `differing` fits one, for `run`'s run.
-pub fn judge_whole(lists: &Lists, differing: &[(Pairing, Difference)], run: &Run) -> Option<Cause> {
+/// So many records that differ are asked for the cause of positions that are no numbers.
+const WITNESSES: usize = 1000;
+/// The part of them that a cause must explain. Some are paired with others by their order.
+const EXPLAINED: f64 = 0.95;
+
+/// The verdict on the lists as a whole, if `differing` fits one, for the run `known`.
+pub fn judge_whole(
+    lists: &Lists,
+    differing: &[(Pairing, Difference)],
+    known: &KnownRun,
+) -> Option<Cause> {
+    let run = known.run;
     stored_twice(lists, differing)
+        .or_else(|| not_finite(lists, differing, known))
         .or_else(|| other_count(lists, differing, run.renderer.emitted()))
         .or_else(|| smaller_limit(lists, differing, run.renderer.max_photon_bounces))
 }
@@ -27,6 +40,9 @@ fn places(differing: &[(Pairing, Difference)]) -> impl Iterator<Item = Pairing> 
 
 fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Cause> {
     let Pairing::Extra(first) = places(differing).next()? else { return None };
+    if !lists.submission.records[first].position.is_finite() {
+        return None;
+    }
     let rows: HashSet<_> = lists
         .pairings
         .iter()
@@ -40,6 +56,31 @@ fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Ca
         reason: "the photon is stored twice".to_owned(),
         is_certain: true,
     })
+}
+
+/// Positions that are no numbers, in a list that does not tell its photons. The axis that builds t
+/// explains them if all that differs comes after a hit where it is parallel to the normal.
+fn not_finite(
+    lists: &Lists,
+    differing: &[(Pairing, Difference)],
+    known: &KnownRun,
+) -> Option<Cause> {
+    let PhotonList { columns, records } = lists.submission;
+    if columns.photon || records.iter().all(|record| record.position.is_finite()) {
+        return None;
+    }
+    let of_reference = places(differing).filter_map(|pairing| match pairing {
+        Pairing::Both(i, _) | Pairing::Missing(i) => Some(&lists.reference.records[i]),
+        Pairing::Extra(_) => None,
+    });
+    let parallel_before = |record: &PhotonRecord| {
+        let story = known.story(u64::from(record.photon))?;
+        story.hits.into_iter().take(record.bounce.into()).find(has_parallel_normal)
+    };
+    let hits: Vec<_> = of_reference.take(WITNESSES).map(parallel_before).collect();
+    let explained = hits.iter().flatten().count();
+    let is_explained = explained as f64 > EXPLAINED * hits.len() as f64;
+    Some(judge_not_finite(hits.iter().flatten().next().filter(|_| is_explained)))
 }
 
 fn smaller_limit(

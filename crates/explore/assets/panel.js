@@ -24,11 +24,10 @@ const panelMethods = {
 
   /** Opens `photon` at the step `name` of `bounce`, or as near to it as its path goes. */
   open(photon, bounce, name) {
-    const { run } = this, path = run.pathOfPhoton(photon);
+    const { run } = this, path = run.photons.indexOf(photon);
+    if (photon >= run.emitted)
+      return this.say(`Expected a number below ${thousands(run.emitted)}, found ${photon}.`);
     if (path < 0) {
-      if (photon >= run.emitted) {
-        return this.say(`Expected a number below ${thousands(run.emitted)}, found ${photon}.`);
-      }
       const orLeftOut = run.keptOf > run.stored ? ", or the page leaves it out" : "";
       return this.say(
         `Photon ${thousands(photon)} has no story here: it stores no photon${orLeftOut}. ` +
@@ -40,11 +39,10 @@ const panelMethods = {
       this.story = run.story(path);
       this.steps = stepsOf(run, this.story);
       $("slider").max = this.steps.length - 1;
-      if (run.sections.moved_index) this.showDots();
+      if (run.comparison) this.showDots();
     }
     const exact = this.steps.findIndex((step) => step.bounce === bounce && step.name === name);
-    const near = this.steps.findLastIndex((step) =>
-      step.bounce <= bounce && (step.bounce < bounce || name !== "emission"));
+    const near = this.steps.findLastIndex((step) => step.bounce <= bounce);
     this.go(exact >= 0 ? exact : near);
   },
 
@@ -73,28 +71,25 @@ const panelMethods = {
   /** Goes to the photon `by` stored paths on. */
   skip(by) {
     const { run } = this, { bounce, name } = this.steps[this.at];
-    let path = run.pathOfPhoton(this.photon) + by;
-    while (run.firstStored[path + 1] === run.firstStored[path] && path >= 0 && path < run.paths)
-      path += by;
+    let path = run.photons.indexOf(this.photon) + by;
+    // A path of one hit or none stores nothing.
+    while (run.pathHits[path] < 2) path += by;
     if (path >= 0 && path < run.paths) this.open(run.photons[path], bounce, name);
   },
 
-  /** Goes to the same step of the bounce before (-1) or after (1). */
-  changeBounce(by) {
-    const { bounce, name } = this.steps[this.at];
-    const isThere = (step) => step.bounce === bounce + by;
-    const same = this.steps.findIndex((step) => isThere(step) && step.name === name);
-    const at = same >= 0 ? same : this.steps.findIndex(isThere);
-    if (at >= 0) this.go(at);
+  /** Goes to the same step of another bounce, or as near to it as the path goes. */
+  goToBounce(bounce) {
+    this.open(this.photon, bounce, this.steps[this.at].name);
   },
 
   play(on) {
-    const next = () => (this.at + 1 < this.steps.length ? this.go(this.at + 1) : this.play(false));
+    const isLast = () => this.at + 1 === this.steps.length;
     clearInterval(this.timer);
-    this.timer = on ? setInterval(next, 1800) : null;
+    this.timer =
+      on ? setInterval(() => (isLast() ? this.play(false) : this.go(this.at + 1)), 1800) : null;
     $("play").ariaPressed = String(on);
     $("play").textContent = on ? "Pause" : "Play";
-    if (on && this.at + 1 === this.steps.length) this.go(0);
+    if (on && isLast()) this.go(0);
   },
 
   showStep() {
@@ -106,38 +101,34 @@ const panelMethods = {
     $("slider").setAttribute("aria-valuetext", `bounce ${step.bounce}, ${source.short}`);
     $("place").textContent = `${at + 1} of ${steps.length}`;
     $("step-title").textContent = source.title;
-    $("say").replaceChildren(...step.say.map((words) => make("p", { textContent: words })));
+    $("say").replaceChildren(...step.say.map((words) => make("p", {}, words)));
     $("drawing").replaceChildren(...(step.diagram ? [step.diagram()] : []));
-    const more = (step.more ?? []).map(([name, value]) =>
-      [make("dt", { textContent: name }), make("dd", { textContent: value })]);
-    $("more").replaceChildren(...more.flat());
+    $("more").replaceChildren(...(step.more ?? []).flatMap(([name, value]) =>
+      [make("dt", {}, name), make("dd", {}, value)]));
     this.showChips();
     this.showSides(step);
     showCode(run.source, source, step);
     this.drawPath(step);
   },
 
+  /** The bounces of the path, and the steps of the bounce that is open, as buttons. */
   showChips() {
     const { steps, at, run, story: { hits, ending } } = this;
     const here = steps[at], last = steps.length - 1;
-    const chip = (words, isHere, action) => {
-      const button = make("button", { type: "button", textContent: words });
+    const chip = (words, isHere, onclick) => {
+      const button = make("button", { onclick }, words);
       if (isHere) button.setAttribute("aria-current", "step");
-      button.addEventListener("click", action);
       return button;
     };
     const bounces = hits.map(({ bounce, surface }) =>
-      chip(`${bounce} ${surface}`, here.bounce === bounce, () =>
-        this.changeBounce(bounce - this.steps[this.at].bounce)));
-    const end = ENDINGS[ending];
-    bounces.push(steps[last].bounce === hits.length
-      ? chip(end, at === last, () => this.go(last))
-      : make("span", { textContent: end }));
-    $("path").replaceChildren(make("span", { textContent: "Bounce" }), ...bounces);
-    const names = steps.flatMap(({ bounce, name }, i) =>
+      chip(`${bounce} ${surface}`, here.bounce === bounce, () => this.goToBounce(bounce)));
+    const end = steps[last].bounce === hits.length
+      ? chip(ENDINGS[ending], at === last, () => this.go(last))
+      : make("span", {}, ENDINGS[ending]);
+    $("path").replaceChildren(make("span", {}, "Bounce"), ...bounces, end);
+    $("names").replaceChildren(...steps.flatMap(({ bounce, name }, i) =>
       bounce === here.bounce
-        ? [chip(run.source.steps[name].short, i === at, () => this.go(i))] : []);
-    $("names").replaceChildren(...names);
+        ? [chip(run.source.steps[name].short, i === at, () => this.go(i))] : []));
     // Where a row does not fit, the one that is open is in sight.
     for (const row of [$("path"), $("names")]) {
       const open = row.querySelector("[aria-current]");
@@ -156,10 +147,9 @@ const panelMethods = {
     const { comparison } = this.run, isHere = this.isDivergence(step);
     $("sides").hidden = !isHere;
     if (!isHere) return;
-    const row = (tag, cells) =>
-      make("tr", {}, ...cells.map((words) => make(tag, { textContent: words })));
+    const row = (tag, cells) => make("tr", {}, ...cells.map((words) => make(tag, {}, words)));
     $("sides").replaceChildren(
-      make("caption", { textContent: "Here the lists part" }),
+      make("caption", {}, "Here the lists part"),
       row("th", ["", "reference", comparison.kind]),
       ...comparison.sides.map((cells) => row("td", cells)));
   },
@@ -174,25 +164,21 @@ function showCode(source, { parts }, { holds, values }) {
     const skipped = branches.filter((branch) => holds[branch.condition] !== branch.holds);
     const rows = lines.map((words, i) => {
       const here = skipped.filter((branch) => isIn(branch.lines, i));
-      const isSkipped = here.some((branch) => !branch.code), isLit = isIn(part.lit, i);
-      const code = make("code", { textContent: words || " " });
-      code.classList.toggle("comment", words.trim().startsWith("//"));
-      for (const { code: part } of here.filter((branch) => branch.code)) {
-        const [before, after] = words.split(part);
-        code.replaceChildren(before, make("span", { className: "skipped", textContent: part }),
-          after);
-      }
-      const className = isSkipped ? "skipped" : isLit ? "lit" : "";
-      const row = make("li", { value: first + i, className }, code);
-      for (const [at, key] of part.values) {
-        if (at !== i || values[key] === undefined) continue;
-        const value = make("span", { className: "value", textContent: values[key] });
+      const inLine = here.find((branch) => branch.code)?.code;
+      const [before, after] = inLine ? words.split(inLine) : [words || " ", ""];
+      const className = words.trim().startsWith("//") ? "comment" : "";
+      const code = make("code", { className }, before,
+        ...(inLine ? [make("span", { className: "skipped" }, inLine)] : []), after);
+      const told = part.values.filter(([at, key]) => at === i && values[key] !== undefined);
+      const state = here.some((branch) => !branch.code) ? "skipped"
+        : isIn(part.lit, i) ? "lit" : "";
+      return make("li", { value: first + i, className: state }, code, ...told.map(([, key]) => {
+        const value = make("span", { className: "value" }, values[key]);
         value.dataset.name = key;
-        row.append(value);
-      }
-      return row;
+        return value;
+      }));
     });
-    const caption = make("figcaption", {}, make("b", { textContent: name }), ` in ${file}`);
+    const caption = make("figcaption", {}, make("b", {}, name), ` in ${file}`);
     return make("figure", {}, caption, make("ol", {}, ...rows));
   });
   $("code").replaceChildren(...figures);

@@ -3,10 +3,11 @@
 /** The names of all colors, in the order of the shader's palette. The style sheet has values. */
 const COLORS =
   "gray one two three four red missing extra moved path light ink t b n edge".split(" ");
-/** The shapes of dots, in the order of the shader's cases. */
-const SHAPES = ["circle", "square", "diamond", "triangle", "ring", "cross"];
+/** The shapes of dots, in the order of the shader's cases, as letters for legends. */
+const SHAPES = { circle: "●", square: "■", diamond: "◆", triangle: "▲", ring: "○", cross: "×" };
 /** A color and a shape as the first number of a dot's look. */
-const look = (color, shape) => COLORS.indexOf(color) | (SHAPES.indexOf(shape) << 4);
+const look = (color, shape) =>
+  COLORS.indexOf(color) | (Object.keys(SHAPES).indexOf(shape) << 4);
 
 const SURFACE_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
@@ -25,37 +26,39 @@ void main() {
 // A dot is as wide as the cube in which the handout looks for a photon, but never too small to see.
 // It stands a little nearer than its surface, whose depth varies within the dot's pixels.
 // (`polygonOffset` would do the same, but some drivers give other depths in every frame.)
+// A wall seen from behind is not drawn, and neither are its dots.
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
-uniform mat4 camera; uniform vec3 eye, palette[16]; uniform float pixels, least, most, large;
-uniform float size, dim; uniform vec2 shift; uniform bool pick;
+layout(location = 2) in vec3 normal;
+uniform mat4 camera; uniform vec3 eye, palette[16]; uniform vec2 shift;
+uniform float pixels, least, most, large, dim, alpha, pick;
 flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {
   uint state = look.y; shape = look.x >> 4;
-  vec3 nearer = mix(position, eye, .006);
-  gl_Position = camera * vec4(nearer, 1);
+  bool isBehind = alpha == 1. && dot(normal, eye - position) < 0.;
+  gl_Position = camera * vec4(mix(position, eye, .006), 1);
   gl_Position.xy += shift * gl_Position.w;
-  wide = clamp(size * pixels / gl_Position.w, least, most);
+  wide = clamp(pixels / gl_Position.w, least, most);
   if (state == 2u) wide = max(wide * 1.6, 4.);
   if (state == 3u) wide = max(wide, large);
   gl_PointSize = wide;
-  if (state == 0u) gl_Position = vec4(2, 2, 2, 1);
+  if (state == 0u || isBehind) gl_Position = vec4(2, 2, 2, 1);
   uint id = uint(gl_VertexID) + 1u;
-  c = pick ? vec4(id & 255u, (id >> 8) & 255u, id >> 16, 255) / 255.
+  c = pick > 0. ? vec4(id & 255u, (id >> 8) & 255u, id >> 16, 255) / 255.
     : vec4(palette[look.x & 15u], state == 2u ? 1. : dim);
 }`;
 const DOT_FRAGMENT = `#version 300 es
 precision highp float; flat in vec4 c; flat in uint shape; flat in float wide;
-uniform bool pick; out vec4 o;
+uniform float pick; out vec4 o;
 void main() {
+  o = c;
   // Too small for a shape: a square, so that at least one pixel is drawn.
-  if (pick || wide < 3.) { o = c; return; }
+  if (pick > 0. || wide < 3.) return;
   vec2 p = abs(gl_PointCoord * 2. - 1.); float d = length(p);
   bool inside = shape == 0u ? d < 1. : shape == 1u ? max(p.x, p.y) < .88
     : shape == 2u ? p.x + p.y < 1. : shape == 3u ? p.x < gl_PointCoord.y * .95
     : shape == 4u ? d < 1. && d > .55 : abs(p.x - p.y) < .38;
   if (!inside) discard;
-  o = c;
 }`;
 // A line is a strip of two triangles. Its width is in pixels.
 const LINE_VERTEX = `#version 300 es

@@ -6,53 +6,51 @@ const ENDINGS = {
   bounce_limit: "bounced as often as it may",
 };
 const about = (x) => `about ${Number(x.toPrecision(4))}`;
-const short = (x) => Number(x.toPrecision(6));
-const near = (x) => `≈ ${short(x)}`;
+const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
 const degrees = (cosine) => `${((Math.acos(clamp(cosine, -1, 1)) * 180) / Math.PI).toFixed(1)}°`;
+/** Whether the normal is too close to the x axis, so that another axis builds t. */
+const isParallel = ({ axis }) => axis[0] !== 1;
+/** Whether n × axis is as long as t: to see, not to compute with. */
+const isUnit = (bare) => Math.abs(bare - 1) < 1e-3;
 
-/** The steps of `story` in order: {bounce, name, holds, say, values, more, lines, labels,
- * diagram}. `holds` has the conditions of the port's branches. The `values` stand beside lines of
- * the code, and `more` stands beside none. */
+/** The steps of `story` in order: {bounce, name, holds, say, values, more, lines, diagram}. `holds`
+ * has the conditions of the port's branches. The `values` stand beside lines of the code, and
+ * `more` stands beside none. Lines with a `name` have it at their end. */
 function stepsOf(run, story) {
   const { hits, ending } = story;
   const steps = [emissionStep(story), ...hits.flatMap((hit) => stepsOfHit(run, story, hit))];
-  if (ending === "absorbed") return steps;
   const isLimit = ending === "bounce_limit";
-  steps.push({
-    bounce: hits.length,
-    name: isLimit ? "limit" : "miss",
-    holds: { bounce_limit: isLimit, no_hit: !isLimit },
-    say: [isLimit
-      ? "remainingBounces is less than 0, so the path ends."
-      : "The ray meets no surface, so the photon leaves the scene and the path ends."],
-    values: { remaining_bounces: String(run.maxBounces - hits.length), "trace()": "false" },
-  });
+  if (ending !== "absorbed")
+    steps.push({
+      bounce: hits.length,
+      name: isLimit ? "limit" : "miss",
+      holds: { bounce_limit: isLimit, no_hit: !isLimit },
+      say: [isLimit
+        ? "remainingBounces is less than 0, so the path ends."
+        : "The ray meets no surface, so the photon leaves the scene and the path ends."],
+      values: { remaining_bounces: String(run.maxBounces - hits.length), "trace()": "false" },
+    });
   return steps;
 }
 
 function emissionStep({ tries, direction }) {
-  const taken = tries.at(-1).map(digits);
-  const rejected = tries.length - 1;
-  const [lies, they] = rejected === 1 ? ["lies", "it is"] : ["lie", "they are"];
+  const last = tries.length - 1, [x, y, z] = tries[last].map(digits);
   const square = (xyz) => digits(lengthSquared(xyz));
   return {
     bounce: 0,
     name: "emission",
     holds: { in_sphere: true },
     say: [
-      rejected === 0
-        ? "The first point drawn in the cube lies in the sphere, so it is taken."
-        : `${rejected} of ${tries.length} points drawn in the cube ${lies} outside the sphere, ` +
-          `so ${they} rejected. The last one is taken.`,
-      "Normalized, it is the direction in which the photon leaves the light.",
+      "Points are drawn in the cube until one lies in the sphere. " +
+        `Here ${last === 0 ? "the first one does" : `${last} of ${tries.length} are rejected`}.`,
+      "The last point, normalized, is the direction in which the photon leaves the light.",
     ],
     values: {
-      loop: `runs ${tries.length === 1 ? "once" : `${tries.length} times`}`,
-      x: taken[0], y: taken[1], z: taken[2],
-      length_squared: square(tries.at(-1)), direction: vectorText(direction),
+      loop: `runs ${last === 0 ? "once" : `${tries.length} times`}`, x, y, z,
+      length_squared: square(tries[last]), direction: vectorText(direction),
     },
     more: tries.map((xyz, i) => {
-      const outcome = i === rejected ? "taken" : "rejected";
+      const outcome = i === last ? "taken" : "rejected";
       return [`try ${i + 1}`, `${vectorText(xyz)}, x² + y² + z² = ${square(xyz)}: ${outcome}`];
     }),
     diagram: () => diagrams.cube(tries),
@@ -60,77 +58,82 @@ function emissionStep({ tries, direction }) {
 }
 
 function stepsOfHit(run, story, hit) {
-  const { bounce, t, surface, roulette, survival, scattered, stored, position, diffuse } = hit;
-  const { normal, facet } = hit.face;
-  const arrival = bounce === 0 ? story.direction : story.hits[bounce - 1].direction;
-  const cosine = -dot(arrival, normal);
+  const { bounce, scattered, stored, position, direction, face } = hit;
   const size = run.size * 0.13;
-  const normalLine = { a: position, b: add(position, normal, size), color: "n", width: 3 };
-  const steps = [
-    {
-      name: "hit",
-      say: [
-        `The ray meets ${surface}, face ${facet}, at distance ${about(t)}.`,
-        cosine >= 0
-          ? `It arrives on the front: the angle to the normal is ${degrees(cosine)}.`
-          : "It arrives from behind: the normal points away from it.",
-      ],
-      values: {
-        remaining_bounces: String(run.maxBounces - bounce),
-        "trace()": "true",
-        intersection_point: vectorText(position),
-      },
-      more: [["t", digits(t)], ["normal", vectorText(normal)]],
-      lines: [normalLine],
-      labels: [["n", normalLine.b]],
-      diagram: () => diagrams.hit(cosine),
-    },
-    {
-      name: "stored",
-      say: stored
-        ? [
-            `path has ${bounce + 1} elements: the photon has bounced before.`,
-            "It is stored, with the way back to where it came from.",
-          ]
-        : [
-            "path has one element, L: the photon comes straight from the light.",
-            "It is not stored. The handout stores only photons that have bounced; " +
-              "shadow rays bring the direct light.",
-          ],
-      values: {
-        "path.len()": `${bounce + 1}`,
-        "photon_map.push()": stored ? "runs" : "skipped",
-        ...(stored ? { to_light: vectorText(scale(arrival, -1)) } : {}),
-      },
-      diagram: () => diagrams.path(bounce, story.hits),
-    },
-    {
-      name: "roulette",
-      say: [
-        `P_r is the largest channel of the diffuse response: ${digits(survival)}.`,
-        scattered
-          ? `The random number ${digits(roulette)} is less, so the photon scatters.`
-          : `The random number ${digits(roulette)} is not less, ` +
-            "so the photon is absorbed here and its path ends.",
-      ],
-      values: {
-        hit_primitive: `a triangle of face ${facet}`,
-        hit_mesh_object: surface,
-        diffuse_response: vectorText(diffuse),
-        probability_of_reflection: digits(survival),
-        "rand()": digits(roulette),
-      },
-      diagram: () => diagrams.roulette(roulette, survival),
-    },
-  ];
+  /** An arrow from the hit. */
+  const arrow = (axis, color, name = color) =>
+    ({ a: position, b: add(position, axis, size), color, width: 3, name });
+  const arrows = {
+    n: arrow(face.normal, "n"), t: arrow(face.tangent, "t"), b: arrow(face.bitangent, "b"),
+    ray: direction && arrow(scale(direction, 1.5), "path", null),
+  };
+  const arrival = bounce === 0 ? story.direction : story.hits[bounce - 1].direction;
+  const steps = [hitStep(run, hit, arrival, arrows), storedStep(hit, arrival), rouletteStep(hit)];
   if (scattered)
-    steps.push(hemisphereStep(hit, size), frameStep(hit, normalLine, size),
-      rayStep(run, hit, normalLine, size));
+    steps.push(hemisphereStep(hit, size), frameStep(hit, arrows), rayStep(run, hit, arrows));
   const holds = {
     bounce_limit: false, no_hit: false, has_bounced: stored, absorbed: !scattered,
-    is_parallel: isParallel(hit.face),
+    is_parallel: isParallel(face),
   };
   return steps.map((step) => ({ bounce, holds, ...step }));
+}
+
+function hitStep({ maxBounces }, { bounce, t, surface, position, face }, arrival, { n }) {
+  const cosine = -dot(arrival, face.normal);
+  return {
+    name: "hit",
+    say: [
+      `The ray meets ${surface}, face ${face.facet}, at distance ${about(t)}.`,
+      cosine >= 0
+        ? `It arrives on the front: the angle to the normal is ${degrees(cosine)}.`
+        : "It arrives from behind: the normal points away from it.",
+    ],
+    values: {
+      remaining_bounces: String(maxBounces - bounce), "trace()": "true",
+      intersection_point: vectorText(position),
+    },
+    more: [["t", digits(t)], ["normal", vectorText(face.normal)]],
+    lines: [n],
+  };
+}
+
+function storedStep({ bounce, stored }, arrival) {
+  return {
+    name: "stored",
+    say: stored
+      ? [`path has ${bounce + 1} elements: the photon has bounced before.`,
+        "It is stored, with the way back to where it came from."]
+      : ["path has one element, L: the photon comes straight from the light.",
+        "It is not stored. The handout stores only photons that have bounced; " +
+          "shadow rays bring the direct light."],
+    values: {
+      "path.len()": `${bounce + 1}`,
+      "photon_map.push()": stored ? "runs" : "skipped",
+      ...(stored && { to_light: vectorText(scale(arrival, -1)) }),
+    },
+  };
+}
+
+function rouletteStep({ surface, diffuse, survival, roulette, scattered, face }) {
+  const [u, p] = [roulette, survival].map(digits);
+  return {
+    name: "roulette",
+    say: [
+      `P_r is the largest channel of the diffuse response: ${p}.`,
+      scattered
+        ? `The random number ${u} is less, so the photon scatters.`
+        : `The random number ${u} is not less, ` +
+          "so the photon is absorbed here and its path ends.",
+    ],
+    values: {
+      hit_primitive: `a triangle of face ${face.facet}`,
+      hit_mesh_object: surface,
+      diffuse_response: vectorText(diffuse),
+      probability_of_reflection: p,
+      "rand()": u,
+    },
+    diagram: () => diagrams.roulette(roulette, survival),
+  };
 }
 
 function hemisphereStep({ position, direction, face, u1, u2 }, size) {
@@ -170,41 +173,40 @@ function hemisphereStep({ position, direction, face, u1, u2 }, size) {
   };
 }
 
-function frameStep({ position, face, direction, u1 }, normalLine, size) {
+function frameStep({ face, direction, u1 }, { n, t, b, ray }) {
   const { normal, tangent, bitangent, bare, axis } = face;
-  const isX = !isParallel(face), axisName = `(${axis.join(", ")})`;
-  const parallel = about(Math.abs(normal[0]));
-  // The angle to the normal as it is, and as it would be with t and b of the length `bare`.
-  const up = Math.sqrt(1 - u1), bareUp = up / Math.hypot(up, bare * Math.sqrt(u1));
-  const line = (axis, color) => ({ a: position, b: add(position, axis, size), color, width: 3 });
-  const [tLine, bLine] = [line(tangent, "t"), line(bitangent, "b")];
+  const axisName = `(${axis.join(", ")})`, parallel = about(Math.abs(normal[0]));
+  // The direction as it would be with t and b of the length `bare`. In the box it is longer than
+  // the true one, so that it is in sight behind it.
+  const up = Math.sqrt(1 - u1), across = add(direction, normal, -up);
+  const bareWay = unit(add(scale(across, bare), normal, up));
+  const end = add(n.a, bareWay, 1.3 * Math.hypot(...add(ray.b, ray.a, -1)));
+  const bareRay = { ...ray, b: end, color: "extra", dash: 7 };
   return {
     name: "frame",
     say: [
-      isX
-        ? `|n · x| is ${parallel}, so the x axis ${axisName} builds t.`
-        : `|n · x| is ${parallel}, too close to 1: ` +
-          `n is parallel to the x axis, so ${axisName} builds t.`,
+      isParallel(face)
+        ? `|n · x| is ${parallel}, too close to 1: ` +
+          `n is parallel to the x axis, so ${axisName} builds t.`
+        : `|n · x| is ${parallel}, so the x axis ${axisName} builds t.`,
       isUnit(bare)
         ? "Here n × axis has length 1 already, so normalizing t and b changes nothing."
-        : `n × axis has length ${about(bare)} before it is normalized. ` +
-          `If t and b kept this length, the ray would leave ${degrees(bareUp)} ` +
-          `from the normal, not ${degrees(up)}. ` +
+        : `n × axis has length ${about(bare)} before it is normalized. If t and b kept this ` +
+          `length, the ray would leave ${degrees(dot(bareWay, normal))} from the normal, ` +
+          `not ${degrees(up)}: the orange line. ` +
           "Over many photons, directions crowd around the normal.",
     ],
     values: {
-      normal: vectorText(normal), is_parallel: String(!isX), axis: axisName,
+      normal: vectorText(normal), is_parallel: String(isParallel(face)), axis: axisName,
       tangent: vectorText(tangent), bitangent: vectorText(bitangent),
-      world_space_direction: `≈ (${direction.map(short).join(", ")})`,
+      world_space_direction: `≈ (${direction.map((x) => Number(x.toPrecision(6))).join(", ")})`,
     },
-    lines: [tLine, bLine, normalLine, rayLine(position, direction, size)],
-    labels: [["t", tLine.b], ["b", bLine.b], ["n", normalLine.b]],
-    diagram: () => diagrams.frame(tangent, bitangent, normal, direction, bare),
+    lines: isUnit(bare) ? [t, b, n, ray] : [bareRay, t, b, n, ray],
   };
 }
 
-function rayStep({ maxBounces, offset }, hit, normalLine, size) {
-  const { position, direction, bounce, face: { normal } } = hit;
+function rayStep({ maxBounces, offset }, { position, direction, bounce, face }, { n, ray }) {
+  const { normal } = face;
   const start = position.map((p, i) => round(p + round(offset * normal[i])));
   return {
     name: "ray",
@@ -215,20 +217,12 @@ function rayStep({ maxBounces, offset }, hit, normalLine, size) {
     ],
     values: {
       world_space_direction: vectorText(direction),
-      ...(offset !== null ? {
+      ...(offset !== null && {
         start: vectorText(start), offset: digits(offset), start_error: digits(round(offset / 2)),
-      } : {}),
+      }),
       remaining_bounces: String(maxBounces - bounce - 1),
     },
-    lines: [rayLine(position, direction, size), normalLine],
-    labels: [["n", normalLine.b]],
+    lines: [ray, n],
     diagram: () => diagrams.offset(direction, normal, offset),
   };
 }
-
-const rayLine = (a, direction, size) =>
-  ({ a, b: add(a, direction, 1.5 * size), color: "path", width: 3.5 });
-/** Whether the normal is too close to the x axis, so that another axis builds t. */
-const isParallel = ({ axis }) => axis[0] !== 1;
-/** Whether n × axis is as long as t: to see, not to compute with. */
-const isUnit = (bare) => Math.abs(bare - 1) < 1e-3;

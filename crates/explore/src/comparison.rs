@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use compare::alignment::{Pairing, align, with_bounces};
 use compare::explain::{Hit, explain, vector};
-use compare::report::{Outcome, Report, compare, scene_size};
+use compare::report::{Outcome, RandomNumbers, Report, compare, scene_size};
 use glam::Vec3;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
@@ -22,11 +22,6 @@ const TOLERANCE: f32 = 1e-4;
 pub(crate) fn tolerance(run: &Run) -> f32 {
     TOLERANCE * run.placement.length_to_world(scene_size(run.scene()))
 }
-
-const OTHER_NUMBERS: &str = "No path of this list is one of the reference's: it was made with \
-     another generator, seed or order of draws.";
-const GRADE_IT: &str = "That alone is no mistake, and where two photons part tells nothing. Run \
-     photon-mapping grade on the list: it judges the list by its statistics.";
 
 /// A record closer than this to the hit before it, in world units, tells no direction.
 const NEAREST: f32 = 0.01;
@@ -76,7 +71,10 @@ impl ListComparison {
         let report = compare(&reference, &submission, Some(run), tolerance, 0.0);
         let reference = with_bounces(&reference).into_owned();
         let submission = with_bounces(&submission).into_owned();
-        let pairings = align(&reference, &submission, tolerance);
+        let mut pairings = align(&reference, &submission, tolerance);
+        if report.random_numbers == RandomNumbers::Other {
+            pairings = apart(&pairings);
+        }
         let mut comparison =
             Self { other, report, pairings, reference, submission, tolerance, step: None };
         comparison.step = comparison.find_step(run);
@@ -187,17 +185,14 @@ impl ListComparison {
         }
     }
 
-    /// Whether the other list draws other random numbers, so that its photons are others.
-    fn has_other_numbers(&self) -> bool {
-        let notes = self.report.note.as_deref().unwrap_or_default();
-        self.misreading().is_none() && notes.contains("the random numbers ")
-    }
-
     /// What the page shows above the box.
     pub(crate) fn meta(&self, surfaces: usize) -> Value {
         let Report { outcome, differences, first_divergence, .. } = &self.report;
         let name = self.name();
-        let has_other_numbers = self.has_other_numbers();
+        let numbers = match self.misreading() {
+            Some(_) => RandomNumbers::Same,
+            None => self.report.random_numbers,
+        };
         let same = match outcome {
             Outcome::Identical => Some("identical"),
             Outcome::WithinTolerance => Some("the same within the tolerance"),
@@ -209,8 +204,11 @@ impl ListComparison {
         let is_certain = divergence.is_none_or(|divergence| divergence.certain);
         let doubt = if is_certain || self.misreading().is_some() { "" } else { " (perhaps)" };
         let verdict = match (same, self.section()) {
-            (None, _) if has_other_numbers => format!("{name}: other random numbers"),
             (Some(same), _) => format!("{name}: {same}"),
+            _ if numbers == RandomNumbers::Other => format!("{name}: other random numbers"),
+            _ if numbers == RandomNumbers::PerhapsOther => {
+                format!("{name}: other random numbers (perhaps)")
+            }
             (None, Some(section)) => format!("{name}: {}{doubt}", section.title()),
             (None, None) => format!("{name}: different"),
         };
@@ -219,18 +217,20 @@ impl ListComparison {
             Other::Submission { .. } => "submission",
             Other::Misreading(_) => "misreading",
         };
-        let (reason, advice) = match self.misreading() {
-            Some(ShownMisreading { id, title, advice, .. }) if kind == "submission" => {
+        let (reason, advice) = match (self.misreading(), numbers.told()) {
+            (_, Some([meaning, advice])) => (meaning.to_owned(), advice.to_owned()),
+            (Some(ShownMisreading { id, title, advice, .. }), _) if kind == "submission" => {
                 let reason = format!("{} This is the misreading {id}.", sentence(title));
                 (reason, (*advice).to_owned())
             }
-            Some(ShownMisreading { title, advice, .. }) => (sentence(title), (*advice).to_owned()),
-            None if has_other_numbers => (OTHER_NUMBERS.to_owned(), GRADE_IT.to_owned()),
-            None => (found.map(sentence).unwrap_or_default(), note),
+            (Some(ShownMisreading { title, advice, .. }), _) => {
+                (sentence(title), (*advice).to_owned())
+            }
+            (None, None) => (found.map(sentence).unwrap_or_default(), note),
         };
         let outcome = match same {
             Some(_) => "same",
-            None if has_other_numbers => "unknown",
+            None if numbers != RandomNumbers::Same => "unknown",
             None => "different",
         };
         json!({
@@ -241,10 +241,10 @@ impl ListComparison {
             "advice": advice,
             "report": self.report.text(),
             "table": self.table(surfaces),
-            "counts": {
+            "counts": (numbers != RandomNumbers::Other).then(|| json!({
                 "matched": differences.matched, "missing": differences.missing,
                 "moved": differences.moved, "extra": differences.extra,
-            },
+            })),
             "photon": self.step.as_ref().map(|step| step.photon),
             "bounce": self.step.as_ref().map(|step| step.bounce),
             "step": self.step.as_ref().map(|step| step.name),
@@ -252,6 +252,15 @@ impl ListComparison {
             "sides": self.step.as_ref().map(|step| &step.sides),
         })
     }
+}
+
+/// `pairings` without the pairs: all that was paired is missing in one list and extra in the other.
+fn apart(pairings: &[Pairing]) -> Vec<Pairing> {
+    let parts = pairings.iter().flat_map(|pairing| match *pairing {
+        Pairing::Both(i, j) => vec![Pairing::Missing(i), Pairing::Extra(j)],
+        alone => vec![alone],
+    });
+    parts.collect()
 }
 
 /// Both lists' values of a record, with labels. `before` is the hit from which its photon came.

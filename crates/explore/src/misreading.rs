@@ -1,7 +1,6 @@
 //! What a run stores under a misreading of the table.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use compare::position_index::is_near;
 use fast::lanes::offset::Offset;
@@ -18,6 +17,7 @@ use variants::section::Section;
 use variants::variation::Simulation;
 
 use super::comparison::tolerance;
+use super::stored;
 
 /// A run with so few bounces allowed shows paths that end one bounce too early. With the handout's
 /// 1000, no path is that long.
@@ -65,17 +65,6 @@ pub fn names() -> Vec<&'static str> {
 /// Whether the misreading `name` shows only where few bounces are allowed.
 pub fn needs_few_bounces(name: &str) -> bool {
     name == hypotheses::BOUNCE_OFF_BY_ONE
-}
-
-/// What `run` stores of `photons`.
-fn stored(run: &Run, photons: Range<u64>) -> Vec<PhotonRecord> {
-    let mut records = Vec::new();
-    let traced: Result<_, std::convert::Infallible> = run.trace_list(photons, |piece, _| {
-        records.extend_from_slice(piece);
-        Ok(())
-    });
-    let Ok(_) = traced;
-    records
 }
 
 /// What the misreading `name` is, and the records that `run`, a run of the handout's scene, stores

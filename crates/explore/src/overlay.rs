@@ -12,75 +12,50 @@ use super::pack::PackedColumns;
 /// A page shows at most so many records that only the other list has, evenly thinned.
 const MOST_EXTRA: usize = 500_000;
 
-/// The overlay as the page's columns.
-#[derive(Debug, Default)]
-pub(crate) struct Overlay {
-    /// For each stored photon of the page: 0 matched, 1 missing, 2 moved.
-    pub kinds: Vec<u8>,
-    /// For each record that moved: the stored photon that it should be, and where it is.
-    pub moved_index: Vec<u32>,
-    pub moved: Vec<[f32; 3]>,
-    /// The records that only the other list has, with the largest number for what it does not
-    /// tell.
-    pub extra: Vec<[f32; 3]>,
-    pub extra_photon: Vec<u32>,
-    pub extra_bounce: Vec<u16>,
-    pub extra_surface: Vec<u16>,
-}
-
 impl ListComparison {
     /// Adds what the page reads of the overlay; `places` has the place of each record of the
     /// reference among the stored photons of the page.
     pub(crate) fn add_columns(&self, columns: &mut PackedColumns, places: &[Option<u32>]) {
-        let overlay = self.overlay(places);
-        columns.bytes("kind", &overlay.kinds);
-        columns.words("moved_index", &overlay.moved_index);
-        columns.vectors("moved", &overlay.moved);
-        columns.vectors("extra", &overlay.extra);
-        columns.words("extra_photon", &overlay.extra_photon);
-        columns.shorts("extra_bounce", &overlay.extra_bounce);
-        columns.shorts("extra_surface", &overlay.extra_surface);
-    }
-
-    /// The overlay; `places` has the place of each record of the reference among the page's
-    /// photons.
-    fn overlay(&self, places: &[Option<u32>]) -> Overlay {
-        let shown = places.iter().flatten().count();
-        let mut overlay = Overlay { kinds: vec![0; shown], ..Overlay::default() };
-        let extra = || self.pairings.iter().filter(|pairing| matches!(pairing, Pairing::Extra(_)));
-        let every = extra().count() / MOST_EXTRA + 1;
-        let mut number_of_extra = 0;
+        // For each stored photon of the page: 0 matched, 1 missing, 2 moved.
+        let mut kinds = vec![0; places.iter().flatten().count()];
+        // For each record that moved: the stored photon that it should be, and where it is.
+        let (mut moved_index, mut moved) = (Vec::new(), Vec::new());
+        let mut extra = Vec::new();
         for pairing in &self.pairings {
             match *pairing {
                 Pairing::Missing(i) => {
                     if let Some(place) = places[i] {
-                        overlay.kinds[place as usize] = 1;
+                        kinds[place as usize] = 1;
                     }
                 }
                 Pairing::Both(i, j) => {
                     let (a, b) = (&self.reference.records[i], &self.submission.records[j]);
                     let Some(place) = places[i] else { continue };
                     if !is_near(a.position, b.position, self.tolerance) {
-                        overlay.kinds[place as usize] = 2;
+                        kinds[place as usize] = 2;
                         if b.position.is_finite() {
-                            overlay.moved_index.push(place);
-                            overlay.moved.push(b.position.to_array());
+                            moved_index.push(place);
+                            moved.push(b.position.to_array());
                         }
                     }
                 }
-                Pairing::Extra(j) => {
-                    number_of_extra += 1;
-                    let record = &self.submission.records[j];
-                    if number_of_extra % every == 0 && record.position.is_finite() {
-                        overlay.extra.push(record.position.to_array());
-                        overlay.extra_photon.push(record.photon);
-                        overlay.extra_bounce.push(record.bounce);
-                        overlay.extra_surface.push(record.surface);
-                    }
-                }
+                Pairing::Extra(j) => extra.push(&self.submission.records[j]),
             }
         }
-        overlay
+        let every = extra.len() / MOST_EXTRA + 1;
+        let extra = extra.into_iter().step_by(every).filter(|record| record.position.is_finite());
+        let extra: Vec<_> = extra.collect();
+        columns.bytes("kind", &kinds);
+        columns.words("movedIndex", &moved_index);
+        columns.vectors("moved", &moved);
+        let of_extra = extra.iter();
+        let positions: Vec<_> = of_extra.clone().map(|it| it.position.to_array()).collect();
+        columns.vectors("extra", &positions);
+        // What a list does not tell is the largest number.
+        let photons: Vec<_> = of_extra.clone().map(|it| it.photon).collect();
+        columns.words("extraPhoton", &photons);
+        columns.shorts("extraBounce", &of_extra.clone().map(|it| it.bounce).collect::<Vec<_>>());
+        columns.shorts("extraSurface", &of_extra.map(|it| it.surface).collect::<Vec<_>>());
     }
 
     /// How many photons the other list stores, surface by surface and last in total: at the bounces

@@ -13,55 +13,60 @@ const LEVEL: Compression = Compression::new(3);
 /// The columns of a page.
 #[derive(Debug, Default)]
 pub struct PackedColumns {
-    /// Name, type and number of entries, in the order of `planes`.
-    sections: Vec<(String, &'static str, usize)>,
-    /// The bytes: of each column first all lowest bytes, then all second ones, and so on.
+    /// Name, type, number of entries and bytes of an entry, in the order of `planes`.
+    sections: Vec<(&'static str, &'static str, usize, usize)>,
+    /// Of each column first the first bytes of all entries, then all second ones, and so on.
     planes: Vec<u8>,
 }
 
 impl PackedColumns {
     fn add<const BYTES: usize>(
         &mut self,
-        name: impl Into<String>,
+        name: &'static str,
         kind: &'static str,
         entries: impl ExactSizeIterator<Item = [u8; BYTES]> + Clone,
     ) {
-        self.sections.push((name.into(), kind, entries.len()));
+        self.sections.push((name, kind, entries.len(), BYTES));
         for plane in 0..BYTES {
             self.planes.extend(entries.clone().map(|bytes| bytes[plane]));
         }
     }
 
     /// Adds a column of bytes.
-    pub fn bytes(&mut self, name: impl Into<String>, column: &[u8]) {
+    pub fn bytes(&mut self, name: &'static str, column: &[u8]) {
         self.add(name, "u8", column.iter().map(|entry| [*entry]));
     }
 
     /// Adds a column of 16-bit numbers.
-    pub fn shorts(&mut self, name: impl Into<String>, column: &[u16]) {
+    pub fn shorts(&mut self, name: &'static str, column: &[u16]) {
         self.add(name, "u16", column.iter().map(|entry| entry.to_le_bytes()));
     }
 
     /// Adds a column of 32-bit numbers.
-    pub fn words(&mut self, name: impl Into<String>, column: &[u32]) {
+    pub fn words(&mut self, name: &'static str, column: &[u32]) {
         self.add(name, "u32", column.iter().map(|entry| entry.to_le_bytes()));
     }
 
     /// Adds a column of floats.
-    pub fn floats(&mut self, name: impl Into<String>, column: &[f32]) {
+    pub fn floats(&mut self, name: &'static str, column: &[f32]) {
         self.add(name, "f32", column.iter().map(|entry| entry.to_le_bytes()));
     }
 
-    /// Adds three columns of floats, `name` with `_x`, `_y` and `_z`.
-    pub fn vectors(&mut self, name: &str, column: &[[f32; 3]]) {
-        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-            let entries = column.iter().map(|vector| vector[axis].to_le_bytes());
-            self.add(format!("{name}_{letter}"), "f32", entries);
-        }
+    /// Adds a column of vectors, three floats each.
+    pub fn vectors(&mut self, name: &'static str, column: &[[f32; 3]]) {
+        let bytes = |vector: &[f32; 3]| {
+            let mut bytes = [0; 12];
+            bytes
+                .chunks_exact_mut(4)
+                .zip(vector)
+                .for_each(|(to, number)| to.copy_from_slice(&number.to_le_bytes()));
+            bytes
+        };
+        self.add(name, "f32", column.iter().map(bytes));
     }
 
     /// What the page must know to read [`Self::to_base64`].
-    pub fn sections(&self) -> &[(String, &'static str, usize)] {
+    pub fn sections(&self) -> &[(&'static str, &'static str, usize, usize)] {
         &self.sections
     }
 

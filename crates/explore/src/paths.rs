@@ -9,6 +9,7 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::numerics::LARGE_EPSILON;
 use rayon::prelude::*;
+use serde::Serialize;
 use serde_json::{Value, json};
 use variants::run::Run;
 
@@ -22,22 +23,24 @@ const MOST_STORED: usize = 1_000_000;
 const MOST_STORIES_OF_OTHERS: usize = 20_000;
 
 /// What the page reads of a run.
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Paths {
     /// The packed numbers.
+    #[serde(skip)]
     pub columns: PackedColumns,
     /// The photon on which the page opens.
-    pub start: u64,
+    start: u64,
     pub surfaces: Vec<PageSurface>,
-    pub faces: Vec<PageFace>,
-    pub lights: Vec<Value>,
-    pub camera: Value,
+    faces: Vec<PageFace>,
+    lights: Vec<Value>,
+    camera: Value,
     /// The scene's longest edge, in world units.
-    pub size: f32,
+    size: f32,
     /// The edge of the cube in which the picture looks for a photon, in world units.
-    pub dot_size: f32,
+    dot_size: f32,
     /// How far along the normal each scattered ray starts, where that is the same for all.
-    pub offset: Option<f32>,
+    offset: Option<f32>,
 }
 
 impl Paths {
@@ -133,10 +136,10 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
             u32::try_from(step).expect("a run has fewer than 2^32 photons")
         })
         .collect();
-    columns.words("path_photon", &steps);
+    columns.words("pathPhoton", &steps);
     let short = |count: usize| u16::try_from(count).expect("a scene has fewer than 2^16 of them");
     let counts: Vec<u16> = stories.iter().map(|story| short(story.hits.len())).collect();
-    columns.shorts("path_hits", &counts);
+    columns.shorts("pathHits", &counts);
     let endings: Vec<u8> = stories
         .iter()
         .map(|story| match story.ending {
@@ -145,19 +148,19 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
             Ending::BounceLimit => 2,
         })
         .collect();
-    columns.bytes("path_ending", &endings);
+    columns.bytes("pathEnding", &endings);
     let lights: Vec<u16> = stories.iter().map(|story| short(story.emission.light)).collect();
-    columns.shorts("path_light", &lights);
+    columns.shorts("pathLight", &lights);
     let face_of = |surface: usize, facet: usize| {
         let key = (surface, facet);
         let face = faces.binary_search_by_key(&key, |face| (face.surface, face.facet));
         short(face.expect("a hit lies on a face of the scene"))
     };
     let of_hits: Vec<u16> = hits().map(|hit| face_of(hit.surface_index, hit.facet)).collect();
-    columns.shorts("hit_face", &of_hits);
-    columns.floats("hit_t", &hits().map(|hit| hit.t).collect::<Vec<_>>());
+    columns.shorts("hitFace", &of_hits);
+    columns.floats("hitT", &hits().map(|hit| hit.t).collect::<Vec<_>>());
     let stored: Vec<_> = hits().filter(|hit| hit.bounce > 0).map(|hit| hit.position).collect();
-    columns.vectors("stored", &stored);
+    columns.vectors("positions", &stored);
     let scattered: Vec<_> = hits().filter_map(|hit| hit.direction).collect();
     columns.vectors("scattered", &scattered);
     // What the page can compute to the same bits, by one line each, is left out.

@@ -35,11 +35,10 @@ fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
 #[test]
 fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let Some(browser) = open_handout("") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     browser.run("document.getElementById('view').style.cssText = 'width: 640px; height: 480px'");
     browser.run(
         "const colors = document.getElementById('colors'); colors.value = 'red'; \
-         colors.dispatchEvent(new Event('input'))",
+         colors.dispatchEvent(new Event('input', { bubbles: true }))",
     );
     browser.click_on("#home");
     // The path and its labels would hide dots.
@@ -49,12 +48,8 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     );
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
-    let place = browser.run(
-        "(() => { const r = document.getElementById('view').getBoundingClientRect(); return [r.x, \
-         r.y, r.width, r.height]; })()",
-    );
-    let [left, top, width, height] = [0, 1, 2, 3].map(|i| float(&place[i]) as u32);
-    assert_eq!((width, height), (640, 480));
+    let [left, top, right, bottom] = browser.edges("#view").map(|edge| edge as u32);
+    assert_eq!((right - left, bottom - top), (640, 480));
     let shot = browser.screenshot();
     let picture = &handout().0.picture;
     let is_drawn = |x: i64, y: i64| {
@@ -95,12 +90,10 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
 #[test]
 fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     // Close to the dot, so that no other is as near to the click.
     browser.run(
-        "const stored = page.run.firstStored[page.run.pathOfPhoton(73)]; page.view.look({ target: \
-         [...page.positions.subarray(3 * stored, 3 * stored + 3)], distance: 0.3, yaw: 1.2, pitch: \
-         0 });",
+        "const stored = page.run.firstStored[page.run.photons.indexOf(73)]; page.view.look({ \
+         target: page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: 0 });",
     );
     browser.settle();
     let place = browser.run(
@@ -112,23 +105,17 @@ fn clicking_a_dot_opens_its_photon() {
     browser.wait_for("location.hash === '#photon=73&bounce=1&step=stored'");
     eprintln!("a click to its story, with the protocol: {:?}", before.elapsed());
     assert_eq!(browser.text("document.getElementById('photon').value"), "73");
-    assert!(browser.text("document.getElementById('say').textContent").contains("stored"));
+    assert!(browser.text_of("#say").contains("stored"));
     browser.has_been_quiet();
 }
 
 #[test]
 fn a_link_restores_its_step() {
     let Some(browser) = open_handout("#photon=73&bounce=1&step=roulette") else { return };
-    let title = || browser.text("document.getElementById('step-title').textContent");
+    let title = || browser.text_of("#step-title");
     assert_eq!(title(), "Photon Scattering/Absorption");
-    assert_eq!(
-        browser.text("document.querySelector('#names [aria-current]').textContent"),
-        "Roulette"
-    );
-    assert_eq!(
-        browser.text("document.querySelector('#path [aria-current]').textContent"),
-        "1 rightWall"
-    );
+    assert_eq!(browser.text_of("#names [aria-current]"), "Roulette");
+    assert_eq!(browser.text_of("#path [aria-current]"), "1 rightWall");
     // Going on changes the address, and the address alone brings back what was there.
     browser.press("ArrowLeft");
     browser.wait_for("location.hash === '#photon=73&bounce=1&step=stored'");
@@ -138,11 +125,7 @@ fn a_link_restores_its_step() {
     // A photon that the page does not have is named, with the command that shows it.
     browser.run("location.hash = '#photon=74'");
     browser.wait_for("!document.getElementById('no-story').hidden");
-    assert!(
-        browser
-            .text("document.getElementById('no-story').textContent")
-            .contains("explore --photon 74")
-    );
+    assert!(browser.text_of("#no-story").contains("explore --photon 74"));
     assert_eq!(
         browser.run("[...document.querySelectorAll('#no-story .whole')].map((n) => n.textContent)"),
         json!(["photon-mapping explore", "--photon"])
@@ -151,7 +134,7 @@ fn a_link_restores_its_step() {
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");
     // So it is when the page opens on such a link, beside the story of the first photon.
     browser.open(&handout().1, "#photon=74");
-    let no_story = browser.text("document.getElementById('no-story').textContent");
+    let no_story = browser.text_of("#no-story");
     assert!(no_story.contains("explore --photon 74"), "{no_story}");
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=emission");
     browser.has_been_quiet();
@@ -160,7 +143,6 @@ fn a_link_restores_its_step() {
 #[test]
 fn the_mouse_turns_zooms_and_centers() {
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
     let (yaw, distance) = (of_camera("yaw"), of_camera("distance"));
     browser.drag([200.0, 300.0], [300.0, 300.0]);
@@ -171,7 +153,7 @@ fn the_mouse_turns_zooms_and_centers() {
     browser.click_on("#home");
     browser.settle();
     // A double-click on a dot turns the box around it from then on.
-    let dot = "[...page.positions.subarray(0, 3)]";
+    let dot = "page.run.place(0)";
     browser.run(&format!(
         "page.view.look({{ target: {dot}, distance: 0.3, yaw: 1.2, pitch: 0 }}); page.view.look({{ \
          target: page.view.camera.target.map((x) => x + 0.01) }})"
@@ -203,14 +185,14 @@ fn table_and_filters_show_what_they_say() {
             assert_eq!(cells[row][column], stored);
         }
     }
-    let shown = || browser.text("document.getElementById('shown').textContent");
+    let shown = || browser.text_of("#shown");
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
     let stored = surfaces[1].by_bounce[1].stored;
     let number =
         format!("{},{:03} photons shown: rightWall, bounce 2.", stored / 1000, stored % 1000);
     assert_eq!(shown(), number);
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
-    browser.run("document.querySelector('.filters').open = true");
+    browser.run("document.getElementById('filters').open = true");
     browser.click_on("#by-bounce input");
     let others = total.stored - total.by_bounce[0].stored;
     assert_eq!(shown(), format!("{},{:03} photons shown.", others / 1000, others % 1000));
@@ -218,7 +200,7 @@ fn table_and_filters_show_what_they_say() {
     browser.run(
         "for (const [id, value] of [['from', 73], ['to', 73]]) { const field = \
          document.getElementById(id); field.value = value; field.dispatchEvent(new \
-         Event('input')); }",
+         Event('input', { bubbles: true })); }",
     );
     assert_eq!(shown(), "1 photon shown.");
     browser.has_been_quiet();
@@ -234,7 +216,7 @@ fn a_scene_of_ones_own_is_explored() {
     browser.open(&write_page("cube", &exploration.page()), "");
     let stored = traced.records.len();
     assert_eq!(
-        browser.text("document.getElementById('shown').textContent"),
+        browser.text_of("#shown"),
         format!("{},{:03} photons shown.", stored / 1000, stored % 1000)
     );
     let photon = traced.records[0].photon;

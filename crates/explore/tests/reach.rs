@@ -10,7 +10,6 @@ use support::{float, handout, open_handout};
 #[test]
 fn the_keyboard_alone_is_enough() {
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
-    browser.media("prefers-reduced-motion", "reduce");
     let link = || browser.text("page.link");
     for (key, then) in [
         ("ArrowRight", "bounce=0&step=hit"),
@@ -43,8 +42,7 @@ fn the_keyboard_alone_is_enough() {
         reached.push(browser.text("document.activeElement.id || document.activeElement.tagName"));
     }
     for id in [
-        "view", "home", "center", "colors", "walls", "dots", "previous", "photon", "next", "play",
-        "slider",
+        "view", "home", "center", "colors", "walls", "previous", "photon", "next", "play", "slider",
     ] {
         assert!(reached.iter().any(|name| name == id), "{id}: {reached:?}");
     }
@@ -82,8 +80,7 @@ fn it_works_on_a_phone() {
             assert_eq!(browser.run("document.documentElement.scrollWidth"), 390, "{step}");
         }
     }
-    browser.media("prefers-reduced-motion", "reduce");
-    browser.run("document.querySelector('.filters').open = true");
+    browser.run("document.getElementById('filters').open = true");
     // A box to tick is as large as its label.
     let smallest = "Math.min(...[...document.querySelectorAll('button, input, select, summary')]\
          .filter((n) => n.offsetParent).map((n) => n.type === 'checkbox' ? n.parentNode : n)\
@@ -102,19 +99,12 @@ fn it_works_on_a_phone() {
 #[test]
 fn box_story_and_code_are_seen_at_once_on_a_phone() {
     let Some(browser) = launch(true) else { return };
-    let edges = |selector: &str| {
-        let [top, bottom] = ["top", "bottom"].map(|edge| {
-            let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
-            float(&browser.run(&format!("{node}.{edge}")))
-        });
-        (top, bottom)
-    };
     for (width, height) in [(390, 844), (844, 390)] {
         browser.size(width, height);
         for step in ["hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
             browser.open(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
             let is_in_sight = |selector: &str| {
-                let (top, bottom) = edges(selector);
+                let [_, top, _, bottom] = browser.edges(selector);
                 let place = format!("{selector}, {step} at {width} x {height}: {top} to {bottom}");
                 assert!(top >= 0.0 && bottom <= f64::from(height), "{place}");
             };
@@ -124,15 +114,12 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
             browser.run("document.querySelector('#code').scrollIntoView({ block: 'end' })");
             assert!(float(&browser.run("window.scrollY")) > 0.0);
             is_in_sight("#forward");
-            assert_eq!(edges("#stage").0, 0.0, "{step} at {width} x {height}");
+            assert_eq!(browser.edges("#stage")[1], 0.0, "{step} at {width} x {height}");
         }
     }
     let before = browser.text("page.link");
-    let (top, bottom) = edges("#back");
-    browser.tap(
-        float(&browser.run("document.querySelector('#back').getBoundingClientRect().x")) + 9.0,
-        (top + bottom) / 2.0,
-    );
+    let [left, top, ..] = browser.edges("#back");
+    browser.tap(left + 9.0, top + 9.0);
     browser.wait_for(&format!("page.link !== '{before}'"));
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=frame");
     browser.has_been_quiet();
@@ -142,7 +129,7 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
 fn without_webgl_the_rest_works() {
     let Some(browser) = launch(false) else { return };
     browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
-    assert!(browser.text("document.getElementById('trouble').textContent").contains("WebGL"));
+    assert!(browser.text_of("#trouble").contains("WebGL"));
     browser.wait_for("document.getElementById('picture').naturalWidth === 640");
     assert_eq!(browser.run("document.getElementById('view').hidden"), true);
     browser.press("ArrowRight");
@@ -156,14 +143,11 @@ fn without_webgl_the_rest_works() {
 fn two_fingers_zoom_and_one_turns() {
     let Some(browser) = launch(true) else { return };
     browser.size(390, 844);
-    browser.media("prefers-reduced-motion", "reduce");
     browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
     let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
     let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
-    let place = "(() => { const r = page.view.canvas.getBoundingClientRect(); \
-                 return [r.x + r.width / 2, r.y + r.height / 2]; })()";
-    let place = browser.run(place);
-    browser.pinch(float(&place[0]), float(&place[1]), 80.0, 160.0);
+    let [left, top, right, bottom] = browser.edges("#view");
+    browser.pinch((left + right) / 2.0, (top + bottom) / 2.0, 80.0, 160.0);
     let halved = of_camera("distance") / distance;
     assert!((halved - 0.5).abs() < 0.05, "{halved}");
     assert_eq!(of_camera("yaw"), yaw);
@@ -178,12 +162,10 @@ fn it_fills_a_projector() {
     browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
     let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
     assert_eq!(browser.run(is_too_wide), false);
-    let edge = |selector: &str, edge: &str| {
-        let node = format!("document.querySelector('{selector}').getBoundingClientRect()");
-        float(&browser.run(&format!("{node}.{edge}")))
-    };
-    assert!(edge("#view", "width") > 900.0, "{}", edge("#view", "width"));
-    assert!(edge("#code .lit", "bottom") < 1080.0, "{}", edge("#code .lit", "bottom"));
+    let [left, _, right, _] = browser.edges("#view");
+    assert!(right - left > 900.0, "{}", right - left);
+    let [.., bottom] = browser.edges("#code .lit");
+    assert!(bottom < 1080.0, "{bottom}");
     browser.has_been_quiet();
 }
 
@@ -200,27 +182,11 @@ fn a_lost_graphics_context_leaves_picture_table_and_story() {
 }
 
 #[test]
-fn the_camera_flies_only_where_motion_is_welcome() {
-    let Some(browser) = open_handout("#photon=73") else { return };
-    let is_home = "Math.abs(page.view.camera.distance - page.run.camera.distance) < 1e-6";
-    let after_home = || {
-        browser.run("page.view.look({ distance: 9 })");
-        browser.run(&format!("document.getElementById('home').click(); {is_home}"))
-    };
-    browser.media("prefers-reduced-motion", "no-preference");
-    assert_eq!(after_home(), false);
-    browser.wait_for(is_home);
-    browser.media("prefers-reduced-motion", "reduce");
-    assert_eq!(after_home(), true);
-    browser.has_been_quiet();
-}
-
-#[test]
 fn shapes_tell_what_colors_tell() {
     let Some(browser) = open_handout("#photon=73") else { return };
     // The pixels that a mark of each shape colors, all in one color.
     let pixels = "(() => { const v = page.view, gl = v.gl, drawn = {}; v.setLines('path', []); \
-         v.setDots(page.positions, new Uint8Array(page.looks.length), page.faceOf); \
+         v.setDots(page.run.dots.position, new Uint8Array(page.looks.length), page.run.dots.normal); \
          for (const shape of ['circle', 'square', 'diamond', 'triangle', 'ring', 'cross']) { \
          v.setMarks([{ at: v.camera.target, color: 'red', shape }]); v.drawNow(); \
          const all = new Uint8Array(4 * v.canvas.width * v.canvas.height); \
@@ -238,10 +204,10 @@ fn shapes_tell_what_colors_tell() {
     for mode in ["bounce", "surface"] {
         browser.run(&format!(
             "(() => {{ const colors = document.getElementById('colors'); colors.value = '{mode}'; \
-             colors.dispatchEvent(new Event('input')); }})()"
+             colors.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
         ));
-        let shapes = "new Set([...document.querySelectorAll('#legend svg')].map((svg) => \
-                      svg.innerHTML)).size";
+        let shapes = "new Set([...document.querySelectorAll('#legend .swatch')].map((dot) => \
+                      dot.textContent)).size";
         assert_eq!(browser.run(shapes), 4, "{mode}");
         let drawn =
             "new Set(page.looks.filter((look, i) => i % 2 === 0).map((look) => look >> 4)).size";

@@ -43,12 +43,11 @@ impl Browser {
 
     /// Clicks the middle of the element `selector`.
     pub fn click_on(&self, selector: &str) {
-        let place = self.run(&format!(
-            "(() => {{ const node = document.querySelector({selector:?}); node.scrollIntoView({{ \
-             block: 'center' }}); const r = node.getBoundingClientRect(); return [r.x + r.width / \
-             2, r.y + r.height / 2]; }})()"
+        self.run(&format!(
+            "document.querySelector({selector:?}).scrollIntoView({{ block: 'center' }})"
         ));
-        self.click(place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"));
+        let [left, top, right, bottom] = self.edges(selector);
+        self.click((left + right) / 2.0, (top + bottom) / 2.0);
     }
 
     /// Touches the CSS pixel (`x`, `y`) of the window.

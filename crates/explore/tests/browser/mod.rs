@@ -136,6 +136,20 @@ impl Browser {
         value.as_str().unwrap_or_else(|| panic!("{expression}: {value}")).to_owned()
     }
 
+    /// The text of the element `selector`.
+    pub fn text_of(&self, selector: &str) -> String {
+        self.text(&format!("document.querySelector({selector:?}).textContent"))
+    }
+
+    /// The left, top, right and bottom edge of the element `selector`, in CSS pixels of the window.
+    pub fn edges(&self, selector: &str) -> [f64; 4] {
+        let edges = self.run(&format!(
+            "(() => {{ const r = document.querySelector({selector:?}).getBoundingClientRect(); \
+             return [r.left, r.top, r.right, r.bottom]; }})()"
+        ));
+        [0, 1, 2, 3].map(|i| edges[i].as_f64().expect("a number"))
+    }
+
     /// Opens `page` at `link`, and waits until it is ready and drawn.
     pub fn open(&self, page: &Path, link: &str) {
         // Another link alone would not load the page again.
@@ -155,7 +169,7 @@ impl Browser {
         }
     }
 
-    /// Waits until what was asked for is drawn and no camera flies.
+    /// Waits until what was asked for is drawn.
     pub fn settle(&self) {
         let frame =
             "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";

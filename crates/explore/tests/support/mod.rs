@@ -4,15 +4,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use explore::Exploration;
 use explore::comparison::ListComparison;
+use explore::{Exploration, list_of, stored};
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use image::RgbImage;
 use oracle::summary::{SurfaceSummary, Tally};
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
-use photon_list::record::Columns;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_map::PhotonMap;
@@ -38,12 +37,7 @@ impl Traced {
     /// Traces `run`, for which `expected` is known.
     pub fn of(mut run: Run, expected: Option<&ExpectedTable>) -> Self {
         let emitted = run.renderer.emitted();
-        let mut records = Vec::new();
-        let traced: Result<_, std::convert::Infallible> = run.trace_list(0..emitted, |piece, _| {
-            records.extend_from_slice(piece);
-            Ok(())
-        });
-        let Ok(_) = traced;
+        let records = stored(&run, 0..emitted);
         let names = run.scene().mesh_objects().iter().map(|object| object.name.clone());
         let mut tally = Tally::new(names);
         records.iter().for_each(|record| tally.add(record));
@@ -58,9 +52,7 @@ impl Traced {
 
     /// Its list.
     pub fn list(&self) -> PhotonList {
-        let columns =
-            Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-        PhotonList { columns, records: self.records.clone() }
+        list_of(self.records.clone())
     }
 
     /// What its page shows, with `comparison` laid over it.
