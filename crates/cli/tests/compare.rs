@@ -163,7 +163,21 @@ fn other_axes_and_photons_counted_from_1_are_said_and_compared() {
     let from_1 = edited(&csv, "from_1.csv", |cells| {
         cells[9] = (cells[9].parse::<u32>().expect("a number") + 1).to_string();
     });
-    for (list, note) in [(&y_up, "axes are y-up"), (&from_1, "photon is shifted by 1")] {
+    // Photons on the floor stay where they are.
+    let z_down = edited(&csv, "z_down.csv", |cells| {
+        for z in [2, 8] {
+            cells[z] = negative(&cells[z]);
+        }
+    });
+    let from_0 = edited(&csv, "from_0.csv", |cells| {
+        cells[10] = (cells[10].parse::<u32>().expect("a number") - 1).to_string();
+    });
+    for (list, note) in [
+        (&y_up, "axes are y-up"),
+        (&z_down, "axes are others: (x, y, -z)"),
+        (&from_1, "photon is shifted by 1"),
+        (&from_0, "'bounce' differs in "),
+    ] {
         let report = json(run_line("compare --json --photons 20000 {}", &[list]).code(0));
         assert_eq!(report["outcome"], "within-tolerance", "{note}");
         assert!(report["note"].as_str().expect("a note").contains(note), "{report}");

@@ -5,8 +5,11 @@ use std::collections::HashMap;
 
 use glam::{Mat3, Vec3};
 
+use super::alignment::Pairing;
+use super::numbers::thousands;
 use super::position_index::{PositionIndex, is_near};
 use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
 
 /// So many records are tried.
 const PROBES: usize = 200;
@@ -15,7 +18,8 @@ const FEWEST: usize = 20;
 
 /// `submission` in the reference's axes and numbers, and what was done to it.
 ///
-/// A list is changed only where hardly any record matches as it stands, and most match afterwards.
+/// Axes are changed only where most records match afterwards, and twice as many as before;
+/// photons are renumbered only where hardly any record matches as it stands.
 pub fn to_reference<'list>(
     reference: &PhotonList,
     submission: &'list PhotonList,
@@ -65,7 +69,9 @@ fn other_axes(
         };
         all.iter().filter(is_found).count()
     };
-    if all.len() < FEWEST || 10 * matched(&Mat3::IDENTITY) > all.len() {
+    // Photons on the floor stay where they are if only z is turned round.
+    let unchanged = matched(&Mat3::IDENTITY);
+    if all.len() < FEWEST || 2 * unchanged > all.len() {
         return None;
     }
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -78,7 +84,8 @@ fn other_axes(
     let (order, signs) =
         every.into_iter().max_by_key(|(order, signs)| matched(&matrix(*order, *signs)))?;
     let axes = matrix(order, signs);
-    if 2 * matched(&axes) < all.len() {
+    let found = matched(&axes);
+    if 2 * found < all.len() || found < 2 * unchanged {
         return None;
     }
     let names = ["x", "y", "z"];
@@ -134,4 +141,40 @@ fn photon_shift(reference: &PhotonList, submission: &PhotonList, tolerance: f32)
         i32::try_from(shift).ok()
     });
     shifts.take(10).find(|shift| *shift != 0 && 2 * matched(*shift) > all.len())
+}
+
+/// In how many of the records that both have, 'bounce' and 'surface' differ: they tell nothing
+/// of where a photon is, so the lists may be the same.
+pub fn other_numbers(
+    reference: &PhotonList,
+    submission: &PhotonList,
+    pairings: &[Pairing],
+) -> Vec<String> {
+    type Told = (&'static str, bool, fn(&PhotonRecord) -> u16, &'static str);
+    let [of_reference, of_submission] = [reference.columns, submission.columns];
+    let told: [Told; 2] = [
+        (
+            "bounce",
+            of_reference.bounce && of_submission.bounce,
+            |record| record.bounce,
+            "counts the bounces made, from 1 on",
+        ),
+        (
+            "surface",
+            of_reference.surface && of_submission.surface,
+            |record| record.surface,
+            "counts the scene's surfaces from 0 on",
+        ),
+    ];
+    let note = |(name, _, number, counts): Told| {
+        let is_other = |pairing: &&Pairing| match **pairing {
+            Pairing::Both(i, j) => number(&reference.records[i]) != number(&submission.records[j]),
+            _ => false,
+        };
+        let other = pairings.iter().filter(is_other).count() as u64;
+        let records = thousands(other);
+        (other > 0)
+            .then(|| format!("'{name}' differs in {records} records: the reference {counts}"))
+    };
+    told.into_iter().filter(|(_, is_told, ..)| *is_told).filter_map(note).collect()
 }

@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde::Serialize;
 
 use super::alignment::{Pairing, align, with_bounces};
-use super::conventions::to_reference;
+use super::conventions::{other_numbers, to_reference};
 use super::differences::{Difference, Differences, count, same_to_light};
 use super::divergence::{Divergence, Lists};
 use super::explanation::{explain_fairly, has_other_draws};
@@ -156,6 +156,9 @@ pub fn compare(
             "the photons are in another order, and were matched by their places"
         });
     }
+    other_numbers(reference, submission, &compared.pairings)
+        .iter()
+        .for_each(|note| report.add_note(note));
     if compared.differing.is_empty() {
         return report;
     }

@@ -43,7 +43,9 @@ pub fn read_any_picture(path: &Path) -> Result<RgbImage, String> {
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
         return Err(format!("it has {width} x {height} pixels, more than {MOST_PIXELS} in all"));
     }
-    Ok(decode(&bytes)?.into_rgb8())
+    let picture = decode(&bytes)?;
+    check_opaque(&picture)?;
+    Ok(picture.into_rgb8())
 }
 
 /// The bytes of the PNG file `path`.
@@ -106,6 +108,12 @@ fn check(bytes: &[u8], picture: DynamicImage) -> Result<RgbImage, String> {
             "it has far more data than its pixels, which are all alike, can need".to_owned()
         );
     }
+    check_opaque(&picture)?;
+    Ok(rgb)
+}
+
+/// Whether all pixels are as opaque as the first: a program may write any value everywhere.
+fn check_opaque(picture: &DynamicImage) -> Result<(), String> {
     if picture.color().has_alpha() {
         let with_alpha = picture.to_rgba8();
         let first = with_alpha.get_pixel(0, 0).0[3];
@@ -113,7 +121,7 @@ fn check(bytes: &[u8], picture: DynamicImage) -> Result<RgbImage, String> {
             return Err(format!("some of it is transparent: {WANTED}"));
         }
     }
-    Ok(rgb)
+    Ok(())
 }
 
 /// The PNG file `bytes` without what does not change its pixels: color profiles and texts may
