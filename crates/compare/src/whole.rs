@@ -58,8 +58,8 @@ fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Ca
     })
 }
 
-/// Most of what differs is no number, in a list that does not tell its photons. The axis that builds
-/// t explains it if all that differs comes after a hit where it is parallel to the normal.
+/// Most of what differs is no number, in a list that does not tell its photons. The axis that
+/// builds t explains it if all that differs comes after a hit where it is parallel to the normal.
 fn not_finite(
     lists: &Lists,
     differing: &[(Pairing, Difference)],
