@@ -58,15 +58,20 @@ fn stored_twice(lists: &Lists, differing: &[(Pairing, Difference)]) -> Option<Ca
     })
 }
 
-/// Positions that are no numbers, in a list that does not tell its photons. The axis that builds t
-/// explains them if all that differs comes after a hit where it is parallel to the normal.
+/// Most of what differs is no number, in a list that does not tell its photons. The axis that
+/// builds t explains it if all that differs comes after a hit where it is parallel to the normal.
 fn not_finite(
     lists: &Lists,
     differing: &[(Pairing, Difference)],
     known: &KnownRun,
 ) -> Option<Cause> {
     let PhotonList { columns, records } = lists.submission;
-    if columns.photon || records.iter().all(|record| record.position.is_finite()) {
+    let of_submission = places(differing).filter_map(|pairing| match pairing {
+        Pairing::Both(_, j) | Pairing::Extra(j) => Some(records[j].position.is_finite()),
+        Pairing::Missing(_) => None,
+    });
+    let (finite, others): (Vec<_>, Vec<_>) = of_submission.partition(|is_finite| *is_finite);
+    if columns.photon || others.is_empty() || finite.len() > others.len() {
         return None;
     }
     let of_reference = places(differing).filter_map(|pairing| match pairing {

@@ -186,7 +186,8 @@ fn shapes_tell_what_colors_tell() {
     let Some(browser) = open_handout("#photon=73") else { return };
     // The pixels that a mark of each shape colors, all in one color.
     let pixels = "(() => { const v = page.view, gl = v.gl, drawn = {}; v.setLines('path', []); \
-         v.setDots(page.run.dots.position, new Uint8Array(page.looks.length), page.run.dots.normal); \
+         const { position, normal } = page.run.dots; \
+         v.setDots(position, new Uint8Array(page.looks.length), normal); \
          for (const shape of ['circle', 'square', 'diamond', 'triangle', 'ring', 'cross']) { \
          v.setMarks([{ at: v.camera.target, color: 'red', shape }]); v.drawNow(); \
          const all = new Uint8Array(4 * v.canvas.width * v.canvas.height); \
