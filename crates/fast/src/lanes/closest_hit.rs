@@ -234,23 +234,6 @@ impl Rays {
         (self.start_error[lane], self.max_t[lane]) = (ray.start_error, ray.max_t);
     }
 
-    /// Puts the ray in lane `from` of `others` into `lane`.
-    #[inline(always)]
-    pub fn copy(&mut self, lane: usize, others: &Self, from: usize) {
-        for axis in 0..3 {
-            self.origin[axis][lane] = others.origin[axis][from];
-            self.direction[axis][lane] = others.direction[axis][from];
-        }
-        self.start_error[lane] = others.start_error[from];
-        self.max_t[lane] = others.max_t[from];
-    }
-
-    /// The point at distance `t` of the ray in `lane`.
-    #[inline(always)]
-    pub fn point(&self, lane: usize, t: f32) -> Vec3 {
-        Vec3::from_array([0, 1, 2].map(|c| self.origin[c][lane])) + t * self.direction(lane)
-    }
-
     /// The ray in `lane`.
     pub fn ray(&self, lane: usize) -> Ray {
         let origin = Vec3::from_array([0, 1, 2].map(|c| self.origin[c][lane]));

@@ -8,12 +8,13 @@ use std::ops::Range;
 
 use glam::Vec3;
 
+use super::cells::cell_of;
 use super::chacha::number;
 use super::closest_hit::{self, Closest, Hits, NONE, Rays};
 use super::draws::{self, Draws};
 use super::emission::{self, DRAWN_IN_VAIN, Emit, EmitAgain, LaneEmission, emit_one};
 use super::first_hit::{self, EmittedPhoton, FirstHits, Meet, Queue};
-use super::outlook::{NOWHERE, Outlook, UNKNOWN, rough_cell};
+use super::outlook::{NOWHERE, Outlook, UNKNOWN};
 use super::scattering::Scatter;
 use super::{LaneTracer, Stage};
 use photon_mapping::photon_list::PhotonRecord;
@@ -155,7 +156,7 @@ impl<'a, D: FnMut(Stage, usize)> Wave<'a, D> {
                     column[lane] = word;
                 }
                 emission.drawn[lane] = draws.drawn;
-                emission.cell[lane] = rough_cell(Vec3::from_array(point));
+                emission.cell[lane] = cell_of(Vec3::from_array(point));
             }
         }
         emission.cell[count..].fill(NOWHERE);
