@@ -4,7 +4,7 @@ use glam::Vec3;
 use pulp::{cast, f32x8};
 
 use super::eight::{Eight, WithEight};
-use super::{CHILDREN, INDICES, LEAF, Leaf, NO_CHILD, NORMALS, SLACK, Tree, TreeNode, WIDTH};
+use super::{CHILDREN, LEAF, Leaf, NO_CHILD, NORMALS, SLACK, Tree, TreeNode, WIDTH};
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle, meet};
 
@@ -190,12 +190,11 @@ impl<E: Eight> Way<E> {
                 };
                 t = exact;
             }
-            let index = leaf[INDICES][lane].to_bits();
+            let normal = &leaf[NORMALS..].as_flattened()[4 * lane..4 * lane + 4];
+            let index = normal[3].to_bits();
             let triangle = &triangles[index as usize];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
-            // Only of what is met, since the normals are lines of the cache of their own.
-            let cosine =
-                self.sheared.cosine(Vec3::from_array([0, 1, 2].map(|c| leaf[NORMALS + c][lane])));
+            let cosine = self.sheared.cosine(Vec3::from_slice(normal));
             if (t < self.closest || is_tie) && self.sheared.reaches(cosine, t) && of(triangle, t) {
                 (self.closest, self.index, self.is_front) = (t, index, cosine <= 0.0);
                 self.limit = t + 2.0 * self.slack;
