@@ -3,6 +3,8 @@
 
 use glam::Vec3;
 
+use super::axes::{axis_of, turn};
+
 /// Cells along the edge of a face of the cube; a power of two, so that the cells' ends are exact.
 pub const EDGE: usize = 32;
 /// How many cells a face has.
@@ -13,48 +15,6 @@ pub const CELLS: usize = 6 * OF_FACE;
 /// the grid and rounding, and [`cell_of`] by five roundings more.
 const MARGIN: f32 = 1.0 / 65_536.0;
 
-/// The face of the cube through which `direction`, of any length, leaves, and the direction in the
-/// order of a ray's axes. The choice is that of `ShearedRay::axes`, without its branches.
-#[inline(always)]
-fn turn(direction: Vec3) -> (i32, Vec3) {
-    let Vec3 { x, y, z } = direction;
-    let size = direction.abs();
-    // Both comparisons always, where `&&` would branch.
-    let along_x = (size.x >= size.y) & (size.x >= size.z);
-    let along_y = size.y >= size.z;
-    let turned = Vec3::new(
-        if along_x {
-            y
-        } else if along_y {
-            z
-        } else {
-            x
-        },
-        if along_x {
-            z
-        } else if along_y {
-            x
-        } else {
-            y
-        },
-        if along_x {
-            x
-        } else if along_y {
-            y
-        } else {
-            z
-        },
-    );
-    let axis = if along_x {
-        0
-    } else if along_y {
-        1
-    } else {
-        2
-    };
-    (2 * axis + i32::from(turned.z < 0.0), turned)
-}
-
 /// The cell of `direction`, of any length.
 ///
 /// Its shears are off by a few roundings, for which a cell has its margin. The face of a point that
@@ -63,7 +23,9 @@ fn turn(direction: Vec3) -> (i32, Vec3) {
 /// unit vector's are rounded.
 #[inline(always)]
 pub fn cell_of(direction: Vec3) -> u32 {
-    let (face, turned) = turn(direction);
+    let axis = axis_of(direction);
+    let turned = turn(axis, direction);
+    let face = 2 * axis + i32::from(turned.z < 0.0);
     let reciprocal = 1.0 / turned.z;
     let (column, row) = (step(turned.x * reciprocal), step(turned.y * reciprocal));
     ((face * EDGE as i32 + row) * EDGE as i32 + column) as u32

@@ -26,6 +26,7 @@
 //!
 //! If you change `trace_photon`, these tests fail until you make the same change here.
 
+mod axes;
 mod cells;
 pub mod chacha;
 pub mod closest_hit;
@@ -37,6 +38,7 @@ mod occlusion;
 pub mod offset;
 mod outlook;
 pub mod picture;
+pub mod rays;
 mod scattering;
 mod shadows;
 mod trigonometry;

@@ -4,7 +4,8 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 
-use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays};
+use super::closest_hit::{Closest, Hits, NONE};
+use super::rays::{GROUP, Rays};
 use super::shadows::{Arrive, MetPoints, SeenPoints, ShadowRays, Towards};
 use super::views::{CameraRays, SearchedTriangles, Views};
 use super::width::Width;
@@ -96,7 +97,7 @@ impl NullaryFnOnce for Bytes<'_> {
     fn call(self) {
         for (bytes, channel) in self.bytes.iter_mut().zip(self.colors) {
             for lane in 0..GROUP {
-                bytes[lane] = (channel[lane] * 255.0).max(0.0).min(255.0) as u8;
+                bytes[lane] = (channel[lane] * 255.0).clamp(0.0, 255.0) as u8;
             }
         }
     }

@@ -4,7 +4,8 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::cells::{CELLS, cell_of};
-use super::closest_hit::{GROUP, Hits, NONE, Rays};
+use super::closest_hit::{Hits, NONE};
+use super::rays::{GROUP, Rays};
 use photon_mapping::scene::point_light::PointLight;
 
 /// What a group of camera rays sees, by coordinate and channel. Lanes that see nothing reflect

@@ -6,9 +6,10 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::cells::{CELLS, cell_of};
-use super::closest_hit::{GROUP, Rays, SharedCorners};
+use super::closest_hit::SharedCorners;
 use super::neighborhood::Neighborhood;
 use super::occlusion::{find_candidates, seen_from};
+use super::rays::{GROUP, Rays};
 use photon_mapping::rendering::photon_mapping_renderer::{
     PHOTON_DOT_RADIUS, PhotonMappingRenderer,
 };
