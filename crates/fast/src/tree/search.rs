@@ -41,9 +41,9 @@ impl<F: Fn(&Triangle, f32) -> bool> WithEight for TreeSearch<'_, F> {
                 None
             };
             while next.is_none()
-                && let Some((place, distance)) = waiting.pop()
+                && let Some(child) = waiting.pop()
             {
-                next = (distance <= way.limit).then_some(place);
+                next = (distance(child) <= way.limit).then_some(child as u32);
             }
         }
         (way.index != NO_CHILD).then_some((way.index as usize, way.closest, way.is_front))
@@ -122,30 +122,26 @@ impl<E: Eight> Way<E> {
         let far = eight.mul_f32s(far, eight.splat_f32s(1.0 + 4.0 * f32::EPSILON));
         let last = eight.smaller(far, eight.splat_f32s(self.limit));
         let mut entered = eight.bits(eight.less_than_or_equal_f32s(near, last));
-        if entered == 0 {
+        let count = entered.count_ones();
+        if count == 0 {
             return None;
         }
         let distances: [f32; WIDTH] = cast(near);
-        let slot = entered.trailing_zeros() as usize % WIDTH;
-        entered &= entered - 1;
-        let mut nearest = (node[CHILDREN][slot].to_bits(), distances[slot]);
-        if entered == 0 {
-            return Some(nearest.0);
-        }
-        let first = waiting.count;
-        while entered != 0 {
+        let mut take = || {
             let slot = entered.trailing_zeros() as usize % WIDTH;
             entered &= entered - 1;
-            let child = (node[CHILDREN][slot].to_bits(), distances[slot]);
-            if child.1 < nearest.1 {
-                waiting.push(nearest);
-                nearest = child;
-            } else {
-                waiting.push(child);
-            }
+            u64::from(distances[slot].to_bits()) << 32 | u64::from(node[CHILDREN][slot].to_bits())
+        };
+        let mut nearest = take();
+        let first = waiting.count;
+        for _ in 1..count {
+            // Without a branch, since which one is nearer cannot be predicted.
+            let child = take();
+            waiting.push(nearest.max(child));
+            nearest = nearest.min(child);
         }
         waiting.sort_from(first);
-        Some(nearest.0)
+        Some(nearest as u32)
     }
 
     /// Tests the triangles of `leaf`.
@@ -229,22 +225,29 @@ fn of_lane(corner: &[f32x8; 3], lane: usize) -> Vec3 {
     Vec3::new(x[lane], y[lane], z[lane])
 }
 
-/// Children that are still to be visited, and how far away their boxes begin.
+/// Children that are still to be visited: how far away their boxes begin, in the upper bits, and
+/// what they are. Distances are not negative, so their bits have the same order.
 struct Stack {
     /// On the processor's stack, because to ask for memory takes as long as to enter some nodes.
-    first: [(u32, f32); ORDINARY_STACK],
+    first: [u64; ORDINARY_STACK],
     count: usize,
-    more: Vec<(u32, f32)>,
+    more: Vec<u64>,
+}
+
+/// How far away the box of `child` begins.
+#[inline(always)]
+fn distance(child: u64) -> f32 {
+    f32::from_bits((child >> 32) as u32)
 }
 
 impl Stack {
     #[inline(always)]
     fn new() -> Self {
-        Self { first: [(NO_CHILD, 0.0); ORDINARY_STACK], count: 0, more: Vec::new() }
+        Self { first: [0; ORDINARY_STACK], count: 0, more: Vec::new() }
     }
 
     #[inline(always)]
-    fn push(&mut self, child: (u32, f32)) {
+    fn push(&mut self, child: u64) {
         if let Some(place) = self.first.get_mut(self.count) {
             *place = child;
             self.count += 1;
@@ -254,7 +257,7 @@ impl Stack {
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<(u32, f32)> {
+    fn pop(&mut self) -> Option<u64> {
         if !self.more.is_empty() {
             return self.more.pop();
         }
@@ -267,10 +270,10 @@ impl Stack {
     #[inline(always)]
     fn sort_from(&mut self, start: usize) {
         for end in start + 1..self.count.min(ORDINARY_STACK) {
-            let mut place = end;
-            while place > start && self.first[place - 1].1 < self.first[place].1 {
-                self.first.swap(place - 1, place);
-                place -= 1;
+            // Without a branch that depends on the distances.
+            for place in (start..end).rev() {
+                let (one, other) = (self.first[place], self.first[place + 1]);
+                (self.first[place], self.first[place + 1]) = (one.max(other), one.min(other));
             }
         }
     }
