@@ -55,7 +55,6 @@ struct Way<E> {
     eight: E,
     origin: [f32; 3],
     sheared: ShearedRay,
-    start_error: f32,
     reciprocal: [f32x8; 3],
     /// The origin, moved by the slack so that boxes begin earlier.
     before: [f32x8; 3],
@@ -81,7 +80,6 @@ impl<E: Eight> Way<E> {
             eight,
             origin: origin.to_array(),
             sheared: ShearedRay::new(ray),
-            start_error: ray.start_error,
             reciprocal: [eight.splat_f32s(0.0); 3],
             before: [eight.splat_f32s(0.0); 3],
             behind: [eight.splat_f32s(0.0); 3],
@@ -157,23 +155,21 @@ impl<E: Eight> Way<E> {
         let v = eight.cross(a[0], c[1], a[1], c[0]);
         let w = eight.cross(b[0], a[1], b[1], a[0]);
         let zero = eight.splat_f32s(0.0);
-        let (mut negative, mut positive, mut in_doubt) = (0, 0, 0);
-        for edge in [u, v, w] {
-            negative |= eight.bits(eight.less_than_f32s(edge, zero));
-            positive |= eight.bits(eight.greater_than_f32s(edge, zero));
-            in_doubt |= eight.bits(eight.equal_f32s(edge, zero));
+        let least = eight.smaller(eight.smaller(u, v), w);
+        let greatest = eight.greater(eight.greater(u, v), w);
+        let negative = eight.bits(eight.less_than_f32s(least, zero));
+        let positive = eight.bits(eight.greater_than_f32s(greatest, zero));
+        let mut met = !(negative & positive) & ((1 << WIDTH) - 1);
+        if met == 0 {
+            return;
         }
+        // Beside a true negative and a true positive one, a zero changes nothing.
+        let in_doubt = eight.bits(eight.equal_f32s(least, zero))
+            | eight.bits(eight.equal_f32s(greatest, zero));
         let determinant = eight.add_f32s(eight.add_f32s(u, v), w);
         let (ua, vb, wc) =
             (eight.mul_f32s(u, a[2]), eight.mul_f32s(v, b[2]), eight.mul_f32s(w, c[2]));
         let distances = eight.div_f32s(eight.add_f32s(eight.add_f32s(ua, vb), wc), determinant);
-        let is_ahead = eight.greater_than_f32s(distances, eight.splat_f32s(-self.start_error));
-        let is_close = eight.less_than_or_equal_f32s(distances, eight.splat_f32s(self.closest));
-        let within = eight.bits(is_ahead) & eight.bits(is_close);
-        let mut met = (within & !(negative & positive)) | in_doubt;
-        if met == 0 {
-            return;
-        }
         let distances: [f32; WIDTH] = cast(distances);
         while met != 0 {
             let lane = met.trailing_zeros() as usize % WIDTH;
@@ -185,6 +181,9 @@ impl<E: Eight> Way<E> {
                     continue;
                 };
                 t = exact;
+            }
+            if t > self.closest {
+                continue;
             }
             let normal = &leaf[NORMALS..].as_flattened()[4 * lane..4 * lane + 4];
             let index = normal[3].to_bits();
