@@ -85,12 +85,12 @@ pub fn take_picture(
 }
 
 /// Makes the bytes of [`image_writer::to_bytes`].
-struct Bytes<'a> {
+struct PixelBytes<'a> {
     colors: &'a [[f32; GROUP]; 3],
     bytes: &'a mut [[u8; GROUP]; 3],
 }
 
-impl NullaryFnOnce for Bytes<'_> {
+impl NullaryFnOnce for PixelBytes<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -150,7 +150,7 @@ impl<'a> PictureTracer<'a> {
             self.ask_lights(count);
             self.add_dots();
             let Self { lanes, colors, bytes, .. } = self;
-            lanes.run(Bytes { colors, bytes });
+            lanes.run(PixelBytes { colors, bytes });
             for (lane, pixel) in pixels.chunks_exact_mut(3).enumerate() {
                 let [red, green, blue] = &*bytes;
                 [pixel[0], pixel[1], pixel[2]] = [red[lane], green[lane], blue[lane]];
@@ -225,7 +225,7 @@ mod tests {
             for channels in channels.chunks(GROUP) {
                 let channel = std::array::from_fn(|lane| channels[lane % channels.len()]);
                 let mut bytes = [[0; GROUP]; 3];
-                width.run(Bytes { colors: &[channel; 3], bytes: &mut bytes });
+                width.run(PixelBytes { colors: &[channel; 3], bytes: &mut bytes });
                 for (lane, channel) in channel.into_iter().enumerate() {
                     let expected = image_writer::to_bytes(Vec3::splat(channel));
                     assert_eq!(bytes.map(|bytes| bytes[lane]), expected, "{channel}");

@@ -127,7 +127,7 @@ impl NullaryFnOnce for Arrive<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::views::View;
+    use crate::lanes::views::Sightlines;
     use crate::lanes::width::Width;
     use photon_mapping::random::photon_random;
     use photon_mapping::scene::Scene;
@@ -164,7 +164,7 @@ mod tests {
                 seen.needed[lane] = [0.0, 1e-5, 1e-6][lane % 3] * scale;
             }
             let scene = Scene::new(Vec::new(), triangles, Vec::new());
-            let view = View::new(&scene, light.position);
+            let view = Sightlines::new(&scene, light.position);
             for width in Width::available() {
                 let mut shadows = ShadowRays::default();
                 width.run(Towards { seen: &seen, light, shadows: &mut shadows });

@@ -19,14 +19,14 @@ use photon_mapping::scene::point_light::PointLight;
 
 /// What may be met on a straight way to a point, by the cell in which that way lies seen from
 /// there: a bit for every triangle. The cell after all is that of ways on which nothing goes.
-pub struct View([u128; CELLS + 1]);
+pub struct Sightlines([u128; CELLS + 1]);
 
 /// What a picture's rays may meet.
 pub struct Views {
     /// On the way from the camera.
-    pub of_camera: Box<View>,
+    pub of_camera: Box<Sightlines>,
     /// On the way to each light.
-    pub of_lights: Vec<Box<View>>,
+    pub of_lights: Vec<Box<Sightlines>>,
     /// Where dots may be.
     pub dots: Neighborhood,
     /// What is seen, by triangle.
@@ -47,9 +47,9 @@ impl Views {
     /// What a camera at `origin` and the lights may see of `renderer`'s scene and dots.
     pub fn new(renderer: &PhotonMappingRenderer, origin: Vec3) -> Self {
         let scene = &renderer.stored_scene;
-        let of_light = |light: &PointLight| View::new(scene, light.position);
+        let of_light = |light: &PointLight| Sightlines::new(scene, light.position);
         Self {
-            of_camera: View::new(scene, origin),
+            of_camera: Sightlines::new(scene, origin),
             of_lights: scene.lights().iter().map(of_light).collect(),
             dots: Neighborhood::new(&renderer.diffuse_map, PHOTON_DOT_RADIUS),
             surfaces: (0..scene.triangles().len())
@@ -80,7 +80,7 @@ impl SeenSurface {
     }
 }
 
-impl View {
+impl Sightlines {
     /// What may be met in `scene` on the way to `origin`.
     pub fn new(scene: &Scene, origin: Vec3) -> Box<Self> {
         let mut of_cells = Box::new(Self([0; CELLS + 1]));
