@@ -4,7 +4,8 @@ use std::io::Cursor;
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use fast::lanes::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
+use fast::lanes::closest_hit::{Closest, Hits, NONE, SharedCorners};
+use fast::lanes::rays::{GROUP, Rays};
 use fast::lanes::width::Width;
 use fast::lanes::{LaneTracer, picture};
 use fast::trace::{trace_list, trace_with_port};

@@ -10,9 +10,9 @@ use photon_mapping::scene::Scene;
 use photon_mapping::scene::camera::PerspectiveCamera;
 use photon_mapping::scene::ray::IntersectionState;
 
-/// How many photons come together before they are looked up: 10 million emitted ones of the
+/// How many photons come together before they are looked up: 5 million emitted ones of the
 /// handout's scene.
-const MOST_WAITING: usize = 1 << 19;
+const MOST_WAITING: usize = 1 << 18;
 
 /// The photons of a run as they come, and the pixels of a picture that those before them turn red.
 ///

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use photon_mapping::photon_list::{PhotonRecord, records};
 use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
+use rayon::prelude::*;
 
 use crate::in_order::in_order;
 use crate::lanes::LaneTracer;
@@ -86,7 +87,8 @@ fn difference(
 ) -> Option<FirstDifference> {
     let count = photons.end - photons.start;
     let step = (count / CHECKED_GROUPS).max(CHECKED_IN_GROUP);
-    photons.clone().step_by(step as usize).find_map(|start| {
+    let starts: Vec<u64> = photons.clone().step_by(step as usize).collect();
+    starts.into_par_iter().find_map_first(|start| {
         let group = start..photons.end.min(start + CHECKED_IN_GROUP);
         first_difference(&lanes.trace_piece(group.clone()), &trace_with_port(renderer, group))
     })

@@ -4,17 +4,13 @@
 use glam::Vec3;
 use pulp::NullaryFnOnce;
 
+use super::axes::{axis_of, turn};
+use super::rays::{GROUP, GroupLanes, Rays};
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::ray::IntersectionState;
-use photon_mapping::scene::ray::Ray;
 
-/// How many rays a kernel call follows. What it keeps of two dozen corners fits a first-level
-/// cache.
-pub const GROUP: usize = 32;
 /// No triangle.
 pub const NONE: u32 = u32::MAX;
-
-type GroupLanes = [f32; GROUP];
 
 /// The triangles of a scene, with every corner named once: a ray turns and shears a corner for all
 /// the triangles that share it. The same arithmetic gives the same bits however often it is done.
@@ -46,30 +42,6 @@ impl SharedCorners {
             .map(|index| (scene.triangles()[index as usize].vertices.map(&mut place), index))
             .collect();
         Self { corners, triangles }
-    }
-}
-
-/// Rays, by coordinate.
-#[derive(Clone, Debug)]
-pub struct Rays {
-    /// Where they start.
-    pub origin: [GroupLanes; 3],
-    /// Where they go: unit vectors.
-    pub direction: [GroupLanes; 3],
-    /// [`Ray::start_error`].
-    pub start_error: GroupLanes,
-    /// [`Ray::max_t`], which only [`Hits::settle`] minds.
-    pub max_t: GroupLanes,
-}
-
-impl Default for Rays {
-    fn default() -> Self {
-        Self {
-            origin: [[0.0; GROUP]; 3],
-            direction: [[1.0; GROUP]; 3],
-            start_error: [0.0; GROUP],
-            max_t: [f32::INFINITY; GROUP],
-        }
     }
 }
 
@@ -118,17 +90,9 @@ impl NullaryFnOnce for Closest<'_> {
         let mut axis = [0; GROUP];
         let (mut shear_x, mut shear_y, mut shear_z) = ([0.0; GROUP], [0.0; GROUP], [0.0; GROUP]);
         for lane in 0..GROUP {
-            let (x, y, z) = (direction_x[lane], direction_y[lane], direction_z[lane]);
-            let along_x = (x.abs() >= y.abs()) & (x.abs() >= z.abs());
-            let along_y = y.abs() >= z.abs();
-            axis[lane] = if along_x {
-                0
-            } else if along_y {
-                1
-            } else {
-                2
-            };
-            let (x, y, z) = turn(axis[lane], x, y, z);
+            let direction = Vec3::new(direction_x[lane], direction_y[lane], direction_z[lane]);
+            axis[lane] = axis_of(direction);
+            let Vec3 { x, y, z } = turn(axis[lane], direction);
             shear_x[lane] = x / z;
             shear_y[lane] = y / z;
             shear_z[lane] = 1.0 / z;
@@ -136,12 +100,8 @@ impl NullaryFnOnce for Closest<'_> {
         hits.seen.resize(scene.corners.len(), [[0.0; GROUP]; 3]);
         for (corner, [seen_x, seen_y, seen_z]) in scene.corners.iter().zip(&mut hits.seen) {
             for lane in 0..GROUP {
-                let (x, y, z) = turn(
-                    axis[lane],
-                    corner.x - origin_x[lane],
-                    corner.y - origin_y[lane],
-                    corner.z - origin_z[lane],
-                );
+                let origin = Vec3::new(origin_x[lane], origin_y[lane], origin_z[lane]);
+                let Vec3 { x, y, z } = turn(axis[lane], *corner - origin);
                 seen_x[lane] = x - shear_x[lane] * z;
                 seen_y[lane] = y - shear_y[lane] * z;
                 seen_z[lane] = shear_z[lane] * z;
@@ -195,75 +155,6 @@ pub(super) fn greatest(u: f32, v: f32, w: f32) -> f32 {
     if greatest > w { greatest } else { w }
 }
 
-/// The coordinates in the order of a ray that runs along `axis`: those of `ShearedRay::axes`.
-#[inline(always)]
-fn turn(axis: i32, x: f32, y: f32, z: f32) -> (f32, f32, f32) {
-    let (is_x, is_y) = (axis == 0, axis == 1);
-    (
-        if is_x {
-            y
-        } else if is_y {
-            z
-        } else {
-            x
-        },
-        if is_x {
-            z
-        } else if is_y {
-            x
-        } else {
-            y
-        },
-        if is_x {
-            x
-        } else if is_y {
-            y
-        } else {
-            z
-        },
-    )
-}
-
-impl Rays {
-    /// Puts `ray` into `lane`.
-    pub fn set(&mut self, lane: usize, ray: &Ray) {
-        for axis in 0..3 {
-            self.origin[axis][lane] = ray.position()[axis];
-            self.direction[axis][lane] = ray.ray_direction()[axis];
-        }
-        (self.start_error[lane], self.max_t[lane]) = (ray.start_error, ray.max_t);
-    }
-
-    /// Puts the ray in lane `from` of `others` into `lane`.
-    #[inline(always)]
-    pub fn copy(&mut self, lane: usize, others: &Self, from: usize) {
-        for axis in 0..3 {
-            self.origin[axis][lane] = others.origin[axis][from];
-            self.direction[axis][lane] = others.direction[axis][from];
-        }
-        self.start_error[lane] = others.start_error[from];
-        self.max_t[lane] = others.max_t[from];
-    }
-
-    /// The point at distance `t` of the ray in `lane`.
-    #[inline(always)]
-    pub fn point(&self, lane: usize, t: f32) -> Vec3 {
-        Vec3::from_array([0, 1, 2].map(|c| self.origin[c][lane])) + t * self.direction(lane)
-    }
-
-    /// The ray in `lane`.
-    pub fn ray(&self, lane: usize) -> Ray {
-        let origin = Vec3::from_array([0, 1, 2].map(|c| self.origin[c][lane]));
-        let mut ray = Ray::new(origin, self.direction(lane));
-        (ray.start_error, ray.max_t) = (self.start_error[lane], self.max_t[lane]);
-        ray
-    }
-
-    fn direction(&self, lane: usize) -> Vec3 {
-        Vec3::from_array([0, 1, 2].map(|c| self.direction[c][lane]))
-    }
-}
-
 impl Hits {
     /// Asks [`Scene::trace`] for those of the first `count` rays that are in doubt or came from
     /// behind: its second looks are rarely needed and not made in lanes.
@@ -288,6 +179,7 @@ mod tests {
     use super::*;
     use crate::lanes::width::Width;
     use photon_mapping::random::photon_random;
+    use photon_mapping::scene::ray::Ray;
     use photon_mapping::scene::triangle::Triangle;
 
     /// Rays exactly at corners and edges, which scattered ones seldom are.

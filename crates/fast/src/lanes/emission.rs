@@ -4,10 +4,11 @@
 use glam::Vec3;
 use pulp::NullaryFnOnce;
 
+use super::cells::cell_of;
 use super::chacha;
 use super::draws::Draws;
 use super::first_hit::EmittedPhoton;
-use super::outlook::{UNKNOWN, rough_cell};
+use super::outlook::UNKNOWN;
 use photon_mapping::random::photon_random;
 
 /// How many photons a kernel call emits. Their blocks fill half of a small first-level cache.
@@ -27,7 +28,7 @@ pub struct LaneEmission<const LANES: usize> {
     pub drawn: [u32; LANES],
     /// The three words after them; zeros in [`Emit`] after [`DRAWN_IN_VAIN`] numbers.
     pub next: [[u32; LANES]; 3],
-    /// The [`rough_cell`] of the point, or [`UNKNOWN`].
+    /// The [`cell_of`] of the point, or [`UNKNOWN`].
     pub cell: [u32; LANES],
 }
 
@@ -73,8 +74,8 @@ impl Accepted {
         (x[lane], y[lane], z[lane]) = (self.point.x, self.point.y, self.point.z);
         drawn[lane] = self.drawn;
         (next_0[lane], next_1[lane], next_2[lane]) = (self.next[0], self.next[1], self.next[2]);
-        let rough_cell = rough_cell(self.point);
-        cell[lane] = if self.drawn == 0 { UNKNOWN } else { rough_cell };
+        let cell_of_point = cell_of(self.point);
+        cell[lane] = if self.drawn == 0 { UNKNOWN } else { cell_of_point };
     }
 }
 
@@ -218,6 +219,6 @@ mod tests {
         // A number has 24 bits of its word.
         let words = [0, 1, 2].map(|n| emission.next[n][lane] & !0xff);
         assert_eq!(words, draws.words, "{}", draws.photon);
-        assert_eq!(emission.cell[lane], rough_cell(Vec3::from_array(*point)));
+        assert_eq!(emission.cell[lane], cell_of(Vec3::from_array(*point)));
     }
 }

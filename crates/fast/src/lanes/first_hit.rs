@@ -163,7 +163,7 @@ impl NullaryFnOnce for Meet<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::outlook::rough_cell;
+    use super::super::cells::cell_of;
     use super::*;
     use crate::lanes::width::Width;
     use photon_mapping::random::photon_random;
@@ -207,7 +207,7 @@ mod tests {
                 if aside == Vec3::ZERO {
                     continue;
                 }
-                let list = outlook.list(rough_cell(aside));
+                let list = outlook.list(cell_of(aside));
                 let point = aside.to_array();
                 let queue = [EmittedPhoton { point, draws: Draws::default() }; LANES];
                 let direction = aside.normalize();

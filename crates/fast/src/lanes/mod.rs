@@ -4,12 +4,13 @@
 //! A wave of photons takes each step together:
 //!
 //! - `emission` draws their directions in the lanes of the processor's vectors.
-//! - `outlook` tells what a photon from a light may meet, and `first_hit` what it meets.
+//! - `outlook` tells what a photon from a light may meet, and `first_hit` what it meets. Directions
+//!   are divided into `cells`, and `occlusion` finds the triangles of each.
 //! - [`closest_hit`] tells what a scattered photon meets.
 //! - `scattering` gives those that survive the roulette a new direction.
 //! - `wave` is the loop around them.
 //!
-//! [`picture`] traces camera and shadow rays in the same way. `views` and `neighborhood` tell it
+//! [`picture`] traces camera rays and `shadows` in the same way. `views` and `neighborhood` tell it
 //! what need not be asked. [`width`] chooses the vector instructions when the program runs.
 //!
 //! **How the two paths stay the same.** `trace_photon` is the specification. This module may only
@@ -25,16 +26,21 @@
 //!
 //! If you change `trace_photon`, these tests fail until you make the same change here.
 
+mod axes;
+mod cells;
 pub mod chacha;
 pub mod closest_hit;
 mod draws;
 mod emission;
 mod first_hit;
 mod neighborhood;
+mod occlusion;
 pub mod offset;
 mod outlook;
 pub mod picture;
+pub mod rays;
 mod scattering;
+mod shadows;
 mod trigonometry;
 mod views;
 mod wave;

@@ -1,13 +1,13 @@
 //! The picture in lanes, to the bytes of [`image_writer::take_picture`].
 
-use std::collections::HashMap;
-
 use glam::Vec3;
 use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 
-use super::closest_hit::{Closest, GROUP, Hits, NONE, Rays, SharedCorners};
-use super::views::{CameraRays, CameraView, Views};
+use super::closest_hit::{Closest, Hits, NONE};
+use super::rays::{GROUP, Rays};
+use super::shadows::{Arrive, MetPoints, SeenPoints, ShadowRays, Towards};
+use super::views::{CameraRays, SearchedTriangles, Views};
 use super::width::Width;
 use photon_mapping::rendering::image_writer;
 use photon_mapping::rendering::photon_mapping_renderer::{
@@ -65,17 +65,15 @@ pub fn take_picture(
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each_init(
         || PictureTracer::new(renderer, lanes, &views),
         |tracer, (row, pixels)| {
-            let colors = tracer.sample_colors(camera, [width, height], row as u32);
-            for (pixel, color) in pixels.chunks_exact_mut(3).zip(colors) {
-                pixel.copy_from_slice(&image_writer::to_bytes(*color));
-            }
+            tracer.draw(camera, [width, height], row as u32, pixels);
             row_done();
         },
     );
-    let checked = (0..width as usize * height as usize).step_by(PIXELS_BETWEEN_CHECKS);
-    let difference = checked
+    let pixels = (0..width as usize * height as usize).into_par_iter();
+    let difference = pixels
+        .step_by(PIXELS_BETWEEN_CHECKS)
         .map(|pixel| (pixel % width as usize, pixel / width as usize))
-        .find(|(column, row)| {
+        .find_first(|(column, row)| {
             let of_lanes = picture.get_pixel(*column as u32, *row as u32).0;
             of_lanes != of_port(&camera_ray(*column, *row))
         })
@@ -86,58 +84,21 @@ pub fn take_picture(
     CheckedPicture { picture, difference }
 }
 
-/// The points that a group of camera rays sees, one after another.
-#[derive(Default)]
-struct SeenPoints {
-    points: [[f32; GROUP]; 3],
-    normals: [[f32; GROUP]; 3],
-    /// [`photon_mapping::scene::Scene::offset`] there.
-    needed: [f32; GROUP],
-    triangles: [u32; GROUP],
-    count: usize,
+/// Makes the bytes of [`image_writer::to_bytes`].
+struct PixelBytes<'a> {
+    colors: &'a [[f32; GROUP]; 3],
+    bytes: &'a mut [[u8; GROUP]; 3],
 }
 
-impl SeenPoints {
-    fn push(&mut self, point: Vec3, normal: Vec3, needed: f32, triangle: u32) {
-        for axis in 0..3 {
-            self.points[axis][self.count] = point[axis];
-            self.normals[axis][self.count] = normal[axis];
-        }
-        (self.needed[self.count], self.triangles[self.count]) = (needed, triangle);
-        self.count += 1;
-    }
-}
-
-/// The shadow rays of [`photon_mapping::rendering::backward_renderer::light_towards`], and the
-/// cosines at which they leave.
-struct Towards<'a> {
-    seen: &'a SeenPoints,
-    light: Vec3,
-    rays: &'a mut Rays,
-    cosines: &'a mut [f32; GROUP],
-}
-
-impl NullaryFnOnce for Towards<'_> {
+impl NullaryFnOnce for PixelBytes<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        let Self { seen: SeenPoints { points, normals, needed, .. }, light, rays, cosines } = self;
-        for lane in 0..GROUP {
-            let point = Vec3::new(points[0][lane], points[1][lane], points[2][lane]);
-            let normal = Vec3::new(normals[0][lane], normals[1][lane], normals[2][lane]);
-            let start = point + needed[lane] * normal;
-            let to_light = light - start;
-            let distance = to_light.length();
-            let direction = to_light / distance;
-            cosines[lane] = normal.dot(direction).max(0.0);
-            rays.origin[0][lane] = start.x;
-            rays.origin[1][lane] = start.y;
-            rays.origin[2][lane] = start.z;
-            rays.direction[0][lane] = direction.x;
-            rays.direction[1][lane] = direction.y;
-            rays.direction[2][lane] = direction.z;
-            rays.max_t[lane] = distance;
+        for (bytes, channel) in self.bytes.iter_mut().zip(self.colors) {
+            for lane in 0..GROUP {
+                bytes[lane] = (channel[lane] * 255.0).clamp(0.0, 255.0) as u8;
+            }
         }
     }
 }
@@ -146,19 +107,14 @@ struct PictureTracer<'a> {
     renderer: &'a PhotonMappingRenderer,
     lanes: Width,
     views: &'a Views,
-    /// The triangles that were looked for together so far, by their bits.
-    searched: HashMap<u128, SharedCorners>,
+    searched: SearchedTriangles<'a>,
     rays: Rays,
     cells: [u32; GROUP],
     hits: Hits,
-    shadows: Rays,
-    obstacles: Hits,
-    /// The pixels of the waiting shadow rays, and the colors that arrive unless something is in
-    /// between.
-    shaded: Vec<(usize, Vec3)>,
-    colors: Vec<Vec3>,
-    /// The pixels that see a surface, and where.
-    points: Vec<(usize, Vec3)>,
+    seen: SeenPoints,
+    shadows: ShadowRays,
+    colors: [[f32; GROUP]; 3],
+    bytes: [[u8; GROUP]; 3],
 }
 
 impl<'a> PictureTracer<'a> {
@@ -167,100 +123,113 @@ impl<'a> PictureTracer<'a> {
             renderer,
             lanes,
             views,
-            searched: HashMap::new(),
+            searched: SearchedTriangles::new(&renderer.stored_scene),
             rays: Rays::default(),
             cells: [0; GROUP],
             hits: Hits::default(),
-            shadows: Rays::default(),
-            obstacles: Hits::default(),
-            shaded: Vec::with_capacity(GROUP),
-            colors: Vec::new(),
-            points: Vec::new(),
+            seen: SeenPoints::default(),
+            shadows: ShadowRays::default(),
+            colors: [[0.0; GROUP]; 3],
+            bytes: [[0; GROUP]; 3],
         }
     }
 
-    /// What [`PhotonMappingRenderer::compute_sample_color`] gives for the pixels of a row of the
-    /// picture of `size` that `camera` takes.
-    fn sample_colors(&mut self, camera: &PerspectiveCamera, size: [u32; 2], row: u32) -> &[Vec3] {
-        let scene = &self.renderer.stored_scene;
-        let width = size[0] as usize;
-        self.colors.clear();
-        self.colors.resize(width, Vec3::ZERO);
-        self.points.clear();
-        for first in (0..width).step_by(GROUP) {
-            let count = GROUP.min(width - first);
-            let (rays, first_pixel) = (&mut self.rays, [first as u32, row]);
-            self.lanes.run(CameraRays { camera, size, first: first_pixel, rays });
-            self.look(count);
-            let mut seen = SeenPoints::default();
-            for lane in 0..count {
-                if let Some(triangle) = scene.triangles().get(self.hits.triangle[lane] as usize) {
-                    let t = self.hits.t[lane];
-                    let point = self.rays.point(lane, t);
-                    let needed = scene.offset(self.hits.triangle[lane] as usize, point, t);
-                    seen.push(point, triangle.normal, needed, self.hits.triangle[lane]);
-                    self.points.push((first + lane, point));
-                }
+    /// Writes what [`PhotonMappingRenderer::compute_sample_color`] gives for the pixels of a row of
+    /// the picture of `size` that `camera` takes.
+    fn draw(&mut self, camera: &PerspectiveCamera, size: [u32; 2], row: u32, pixels: &mut [u8]) {
+        for (first, pixels) in (0..).step_by(GROUP).zip(pixels.chunks_mut(3 * GROUP)) {
+            let Self { rays, cells, .. } = self;
+            self.lanes.run(CameraRays { camera, size, first: [first, row], rays, cells });
+            let count = pixels.len() / 3;
+            let bits = self.views.of_camera.bits(&cells[..count]);
+            if bits == 0 {
+                // A new picture is black.
+                continue;
             }
-            self.ask_lights(&seen);
-        }
-        self.shade();
-        for (pixel, point) in &self.points {
-            if self.views.dots.may_have(*point)
-                && self.renderer.diffuse_map.any_within_cube(*point, PHOTON_DOT_RADIUS)
-            {
-                self.colors[*pixel] += Vec3::X;
-            }
-        }
-        &self.colors
-    }
-
-    /// Adds a shadow ray for every light that shines on one of the last points, which are `seen`.
-    fn ask_lights(&mut self, seen: &SeenPoints) {
-        let scene = &self.renderer.stored_scene;
-        let pixels = self.points.len() - seen.count;
-        let (mut rays, mut cosines) = (Rays::default(), [0.0; GROUP]);
-        for light in scene.lights() {
-            let (rays, cosines) = (&mut rays, &mut cosines);
-            self.lanes.run(Towards { seen, light: light.position, rays, cosines });
-            for (lane, cosine) in cosines.iter().enumerate().take(seen.count) {
-                let triangle = &scene.triangles()[seen.triangles[lane] as usize];
-                let mesh_object = &scene.mesh_objects()[triangle.parent_mesh_object];
-                let diffuse_response = mesh_object.material.base_diffuse_reflection();
-                let color = diffuse_response * light.color * *cosine;
-                if color == Vec3::ZERO {
-                    continue;
-                }
-                self.shadows.copy(self.shaded.len(), rays, lane);
-                self.shaded.push((self.points[pixels + lane].0, color));
-                if self.shaded.len() == GROUP {
-                    self.shade();
-                }
+            self.look(bits, count);
+            self.ask_lights(count);
+            self.add_dots();
+            let Self { lanes, colors, bytes, .. } = self;
+            lanes.run(PixelBytes { colors, bytes });
+            for (lane, pixel) in pixels.chunks_exact_mut(3).enumerate() {
+                let [red, green, blue] = &*bytes;
+                [pixel[0], pixel[1], pixel[2]] = [red[lane], green[lane], blue[lane]];
             }
         }
     }
 
-    /// Finds what the first `count` camera rays meet.
-    fn look(&mut self, count: usize) {
-        let Self { renderer, lanes, views, searched, rays, cells, hits, .. } = self;
+    /// Finds what the first `count` camera rays see of the triangles in `bits`.
+    fn look(&mut self, bits: u128, count: usize) {
+        let Self { renderer, lanes, views, searched, rays, hits, seen, .. } = self;
         let scene = &renderer.stored_scene;
-        lanes.run(CameraView { rays, cells });
-        let bits = cells[..count].iter().fold(0, |bits, c| bits | views.of_cells[*c as usize]);
-        let triangles = (0..scene.triangles().len() as u32).filter(|t| bits >> t & 1 == 1);
-        let seen = searched.entry(bits).or_insert_with(|| SharedCorners::of(scene, triangles));
-        lanes.run(Closest { scene: seen, rays, hits });
+        lanes.run(Closest { scene: searched.get(bits), rays, hits });
         hits.settle(scene, rays, count);
+        hits.triangle[count..].fill(NONE);
+        lanes.run(MetPoints { rays, hits, points: &mut seen.points });
+        for (lane, triangle) in hits.triangle.iter().enumerate() {
+            let Some(surface) = views.surfaces.get(*triangle as usize) else {
+                seen.responses.iter_mut().for_each(|channel| channel[lane] = 0.0);
+                continue;
+            };
+            for axis in 0..3 {
+                seen.normals[axis][lane] = surface.normal[axis];
+                seen.responses[axis][lane] = surface.response[axis];
+            }
+            seen.needed[lane] = surface.offset.unwrap_or_else(|| {
+                let point = Vec3::from_array([0, 1, 2].map(|axis| seen.points[axis][lane]));
+                scene.offset(*triangle as usize, point, hits.t[lane])
+            });
+        }
     }
 
-    /// Adds the colors that arrive along the waiting shadow rays.
-    fn shade(&mut self) {
-        let Self { renderer, lanes, views, shadows, obstacles: hits, shaded, colors, .. } = self;
-        lanes.run(Closest { scene: &views.all, rays: shadows, hits });
-        hits.settle(&renderer.stored_scene, shadows, shaded.len());
-        for (lane, (pixel, color)) in shaded.drain(..).enumerate() {
-            // Any obstacle before the light hides it, so the closest one does.
-            if hits.triangle[lane] == NONE || hits.t[lane] >= shadows.max_t[lane] {
-                colors[pixel] += color;
+    /// Finds which light shines on what is seen.
+    fn ask_lights(&mut self, count: usize) {
+        let Self { renderer, lanes, views, searched, seen, shadows, colors, .. } = self;
+        *colors = [[0.0; GROUP]; 3];
+        let scene = &renderer.stored_scene;
+        for (light, view) in scene.lights().iter().zip(&views.of_lights) {
+            lanes.run(Towards { seen, light, shadows });
+            let bits = view.bits(&shadows.cells);
+            let ShadowRays { rays, obstacles: hits, .. } = shadows;
+            lanes.run(Closest { scene: searched.get(bits), rays, hits });
+            hits.settle(scene, rays, count);
+            lanes.run(Arrive { shadows, colors });
+        }
+    }
+
+    /// Turns red what is seen near a photon.
+    fn add_dots(&mut self) {
+        let Self { renderer, views, hits, seen, colors, .. } = self;
+        for (lane, triangle) in hits.triangle.iter().enumerate() {
+            let point = Vec3::from_array([0, 1, 2].map(|axis| seen.points[axis][lane]));
+            if *triangle != NONE
+                && views.dots.may_have(point)
+                && renderer.diffuse_map.any_within_cube(point, PHOTON_DOT_RADIUS)
+            {
+                colors[0][lane] += 1.0;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_those_of_the_port() {
+        let special = [f32::NAN, f32::INFINITY, -f32::INFINITY, -0.0, -1e-9, 1.0, 1.1, 1e-40];
+        let channels: Vec<f32> =
+            (0..=20_000).map(|step| 1e-4 * step as f32 - 0.5).chain(special).collect();
+        for width in Width::available() {
+            for channels in channels.chunks(GROUP) {
+                let channel = std::array::from_fn(|lane| channels[lane % channels.len()]);
+                let mut bytes = [[0; GROUP]; 3];
+                width.run(PixelBytes { colors: &[channel; 3], bytes: &mut bytes });
+                for (lane, channel) in channel.into_iter().enumerate() {
+                    let expected = image_writer::to_bytes(Vec3::splat(channel));
+                    assert_eq!(bytes.map(|bytes| bytes[lane]), expected, "{channel}");
+                }
             }
         }
     }

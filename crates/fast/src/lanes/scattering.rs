@@ -4,8 +4,9 @@ use glam::Vec3;
 use pulp::NullaryFnOnce;
 
 use super::chacha::number;
-use super::closest_hit::{GROUP, Rays};
+
 use super::offset::Offset;
+use super::rays::{GROUP, Rays};
 use super::trigonometry::sine_and_cosine;
 
 /// Scatters [`GROUP`] photons.

@@ -60,12 +60,11 @@ type Lanes = [f32; WIDTH];
 type TreeNode = [Lanes; 8];
 const CHILDREN: usize = 6;
 
-/// Eight triangles: their corners, by corner, then axis. Then come their normals, by axis, which
-/// the triangles have too, but far away in memory, and the bits of their indices. A triangle that
-/// is missing is the first once more.
+/// Eight triangles: their corners, by corner, then axis. Then come four numbers for each triangle,
+/// which are only read of what is met: its normal, which the triangles have too, but far away in
+/// memory, and the bits of its index. A triangle that is missing is the first once more.
 type Leaf = [Lanes; 13];
 const NORMALS: usize = 9;
-const INDICES: usize = 12;
 
 /// Boxes around boxes around triangles.
 #[derive(Debug)]
@@ -168,10 +167,12 @@ fn leaf(triangles: &[Triangle], items: &[Item]) -> Leaf {
     for lane in 0..WIDTH {
         let index = items.get(lane).unwrap_or(&items[0]).index;
         let Triangle { vertices: [a, b, c], normal, .. } = triangles[index as usize];
-        let values = [a, b, c, normal].into_iter().flat_map(|vector| vector.to_array());
-        for (row, value) in leaf.iter_mut().zip(values.chain([f32::from_bits(index)])) {
-            row[lane] = value;
+        let corners = [a, b, c].into_iter().flat_map(|corner| corner.to_array());
+        for (row, coordinate) in leaf.iter_mut().zip(corners) {
+            row[lane] = coordinate;
         }
+        leaf[NORMALS..].as_flattened_mut()[4 * lane..4 * lane + 4]
+            .copy_from_slice(&normal.extend(f32::from_bits(index)).to_array());
     }
     leaf
 }

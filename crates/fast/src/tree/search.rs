@@ -4,7 +4,7 @@ use glam::Vec3;
 use pulp::{cast, f32x8};
 
 use super::eight::{Eight, WithEight};
-use super::{CHILDREN, INDICES, LEAF, Leaf, NO_CHILD, NORMALS, SLACK, Tree, TreeNode, WIDTH};
+use super::{CHILDREN, LEAF, Leaf, NO_CHILD, NORMALS, SLACK, Tree, TreeNode, WIDTH};
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle, meet};
 
@@ -41,9 +41,9 @@ impl<F: Fn(&Triangle, f32) -> bool> WithEight for TreeSearch<'_, F> {
                 None
             };
             while next.is_none()
-                && let Some((place, distance)) = waiting.pop()
+                && let Some(child) = waiting.pop()
             {
-                next = (distance <= way.limit).then_some(place);
+                next = (distance(child) <= way.limit).then_some(child as u32);
             }
         }
         (way.index != NO_CHILD).then_some((way.index as usize, way.closest, way.is_front))
@@ -55,7 +55,6 @@ struct Way<E> {
     eight: E,
     origin: [f32; 3],
     sheared: ShearedRay,
-    start_error: f32,
     reciprocal: [f32x8; 3],
     /// The origin, moved by the slack so that boxes begin earlier.
     before: [f32x8; 3],
@@ -81,7 +80,6 @@ impl<E: Eight> Way<E> {
             eight,
             origin: origin.to_array(),
             sheared: ShearedRay::new(ray),
-            start_error: ray.start_error,
             reciprocal: [eight.splat_f32s(0.0); 3],
             before: [eight.splat_f32s(0.0); 3],
             behind: [eight.splat_f32s(0.0); 3],
@@ -122,30 +120,26 @@ impl<E: Eight> Way<E> {
         let far = eight.mul_f32s(far, eight.splat_f32s(1.0 + 4.0 * f32::EPSILON));
         let last = eight.smaller(far, eight.splat_f32s(self.limit));
         let mut entered = eight.bits(eight.less_than_or_equal_f32s(near, last));
-        if entered == 0 {
+        let count = entered.count_ones();
+        if count == 0 {
             return None;
         }
         let distances: [f32; WIDTH] = cast(near);
-        let slot = entered.trailing_zeros() as usize % WIDTH;
-        entered &= entered - 1;
-        let mut nearest = (node[CHILDREN][slot].to_bits(), distances[slot]);
-        if entered == 0 {
-            return Some(nearest.0);
-        }
-        let first = waiting.count;
-        while entered != 0 {
+        let mut take = || {
             let slot = entered.trailing_zeros() as usize % WIDTH;
             entered &= entered - 1;
-            let child = (node[CHILDREN][slot].to_bits(), distances[slot]);
-            if child.1 < nearest.1 {
-                waiting.push(nearest);
-                nearest = child;
-            } else {
-                waiting.push(child);
-            }
+            u64::from(distances[slot].to_bits()) << 32 | u64::from(node[CHILDREN][slot].to_bits())
+        };
+        let mut nearest = take();
+        let first = waiting.count;
+        for _ in 1..count {
+            // Without a branch, since which one is nearer cannot be predicted.
+            let child = take();
+            waiting.push(nearest.max(child));
+            nearest = nearest.min(child);
         }
         waiting.sort_from(first);
-        Some(nearest.0)
+        Some(nearest as u32)
     }
 
     /// Tests the triangles of `leaf`.
@@ -161,23 +155,21 @@ impl<E: Eight> Way<E> {
         let v = eight.cross(a[0], c[1], a[1], c[0]);
         let w = eight.cross(b[0], a[1], b[1], a[0]);
         let zero = eight.splat_f32s(0.0);
-        let (mut negative, mut positive, mut in_doubt) = (0, 0, 0);
-        for edge in [u, v, w] {
-            negative |= eight.bits(eight.less_than_f32s(edge, zero));
-            positive |= eight.bits(eight.greater_than_f32s(edge, zero));
-            in_doubt |= eight.bits(eight.equal_f32s(edge, zero));
+        let least = eight.smaller(eight.smaller(u, v), w);
+        let greatest = eight.greater(eight.greater(u, v), w);
+        let negative = eight.bits(eight.less_than_f32s(least, zero));
+        let positive = eight.bits(eight.greater_than_f32s(greatest, zero));
+        let mut met = !(negative & positive) & ((1 << WIDTH) - 1);
+        if met == 0 {
+            return;
         }
+        // Beside a true negative and a true positive one, a zero changes nothing.
+        let in_doubt = eight.bits(eight.equal_f32s(least, zero))
+            | eight.bits(eight.equal_f32s(greatest, zero));
         let determinant = eight.add_f32s(eight.add_f32s(u, v), w);
         let (ua, vb, wc) =
             (eight.mul_f32s(u, a[2]), eight.mul_f32s(v, b[2]), eight.mul_f32s(w, c[2]));
         let distances = eight.div_f32s(eight.add_f32s(eight.add_f32s(ua, vb), wc), determinant);
-        let is_ahead = eight.greater_than_f32s(distances, eight.splat_f32s(-self.start_error));
-        let is_close = eight.less_than_or_equal_f32s(distances, eight.splat_f32s(self.closest));
-        let within = eight.bits(is_ahead) & eight.bits(is_close);
-        let mut met = (within & !(negative & positive)) | in_doubt;
-        if met == 0 {
-            return;
-        }
         let distances: [f32; WIDTH] = cast(distances);
         while met != 0 {
             let lane = met.trailing_zeros() as usize % WIDTH;
@@ -190,12 +182,14 @@ impl<E: Eight> Way<E> {
                 };
                 t = exact;
             }
-            let index = leaf[INDICES][lane].to_bits();
+            if t > self.closest {
+                continue;
+            }
+            let normal = &leaf[NORMALS..].as_flattened()[4 * lane..4 * lane + 4];
+            let index = normal[3].to_bits();
             let triangle = &triangles[index as usize];
             let is_tie = t == self.closest && self.index != NO_CHILD && index < self.index;
-            // Only of what is met, since the normals are lines of the cache of their own.
-            let cosine =
-                self.sheared.cosine(Vec3::from_array([0, 1, 2].map(|c| leaf[NORMALS + c][lane])));
+            let cosine = self.sheared.cosine(Vec3::from_slice(normal));
             if (t < self.closest || is_tie) && self.sheared.reaches(cosine, t) && of(triangle, t) {
                 (self.closest, self.index, self.is_front) = (t, index, cosine <= 0.0);
                 self.limit = t + 2.0 * self.slack;
@@ -230,22 +224,29 @@ fn of_lane(corner: &[f32x8; 3], lane: usize) -> Vec3 {
     Vec3::new(x[lane], y[lane], z[lane])
 }
 
-/// Children that are still to be visited, and how far away their boxes begin.
+/// Children that are still to be visited: how far away their boxes begin, in the upper bits, and
+/// what they are. Distances are not negative, so their bits have the same order.
 struct Stack {
     /// On the processor's stack, because to ask for memory takes as long as to enter some nodes.
-    first: [(u32, f32); ORDINARY_STACK],
+    first: [u64; ORDINARY_STACK],
     count: usize,
-    more: Vec<(u32, f32)>,
+    more: Vec<u64>,
+}
+
+/// How far away the box of `child` begins.
+#[inline(always)]
+fn distance(child: u64) -> f32 {
+    f32::from_bits((child >> 32) as u32)
 }
 
 impl Stack {
     #[inline(always)]
     fn new() -> Self {
-        Self { first: [(NO_CHILD, 0.0); ORDINARY_STACK], count: 0, more: Vec::new() }
+        Self { first: [0; ORDINARY_STACK], count: 0, more: Vec::new() }
     }
 
     #[inline(always)]
-    fn push(&mut self, child: (u32, f32)) {
+    fn push(&mut self, child: u64) {
         if let Some(place) = self.first.get_mut(self.count) {
             *place = child;
             self.count += 1;
@@ -255,7 +256,7 @@ impl Stack {
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<(u32, f32)> {
+    fn pop(&mut self) -> Option<u64> {
         if !self.more.is_empty() {
             return self.more.pop();
         }
@@ -268,10 +269,10 @@ impl Stack {
     #[inline(always)]
     fn sort_from(&mut self, start: usize) {
         for end in start + 1..self.count.min(ORDINARY_STACK) {
-            let mut place = end;
-            while place > start && self.first[place - 1].1 < self.first[place].1 {
-                self.first.swap(place - 1, place);
-                place -= 1;
+            // Without a branch that depends on the distances.
+            for place in (start..end).rev() {
+                let (one, other) = (self.first[place], self.first[place + 1]);
+                (self.first[place], self.first[place + 1]) = (one.max(other), one.min(other));
             }
         }
     }
