@@ -15,7 +15,7 @@ use super::picture::judge_picture;
 use super::picture::reading::read_picture;
 use super::picture::view::{PIXELS, View};
 use super::policy::Policy;
-use super::recognized::RECOGNIZED;
+use super::recognized::scored_as;
 use super::text::{printable, rounded};
 use super::verdict::{Finding, Grade, Verdict, Weight};
 pub use crate::limits::submission::MOST_RECORDS;
@@ -207,13 +207,7 @@ fn grade_picture(
         let found = if judgment.has_dots { "dots" } else { "no dot" };
         return without_bounces(submission, settings, None, found, !judgment.has_dots);
     }
-    let mut faults = judgment.findings.iter().filter(|finding| finding.is_fault()).peekable();
-    let verdict = match (faults.peek().is_some(), judgment.has_dots) {
-        (false, _) => Verdict::Correct,
-        (true, false) => Verdict::NoDots,
-        (true, true) if faults.all(|fault| fault.check == ENOUGH_PHOTONS) => Verdict::Undecided,
-        (true, true) => Verdict::Incorrect,
-    };
+    let verdict = judgment.verdict();
     let because = Because {
         explanation: judgment.explanation.as_ref(),
         pair: judgment.pair.as_ref(),
@@ -306,16 +300,12 @@ impl Because<'_> {
         let mut explained = explanation.iter().chain(&pair);
         let stores_direct = explained.any(|it| it.hypothesis.variation.stores_direct());
         let mut faults = findings.iter().filter(|finding| finding.is_fault());
-        let is_recognized = faults.clone().all(|finding| finding.check != RECOGNIZED);
         let is_plausible = faults.all(|finding| finding.weight != Weight::Grave) && !stores_direct;
         Graded::new(Grade {
             submission: submission.name.clone(),
             emitted: emitted.or(settings.emitted),
             stored,
-            score: match is_recognized {
-                true => settings.policy.score(verdict, misreading, is_plausible),
-                false => settings.policy.unreadable,
-            },
+            score: settings.policy.score(scored_as(verdict, &findings), misreading, is_plausible),
             verdict,
             misreading,
             misreading_confidence: explanation.map(|explanation| explanation.confidence),
