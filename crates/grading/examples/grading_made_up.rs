@@ -18,8 +18,8 @@ use rayon::prelude::*;
 /// How many points are made up.
 const COUNTS: [usize; 9] = [1, 10, 59, 60, 100, 200, 500, 1000, 10_000];
 const SEEDS: u64 = 6;
-/// The edges of patches of noise, in pixels: the last is the whole picture.
-const EDGES: [usize; 6] = [20, 40, 80, 160, 320, 640];
+/// The edges of patches of noise in pictures, in pixels.
+const EDGES: [usize; 3] = [20, 40, 80];
 
 fn main() {
     let places = Places::new(&create_scene());
@@ -27,8 +27,8 @@ fn main() {
     println!("# Points for what was made up\n");
     println!(
         "How many of {SEEDS} submissions get a point, by the number of their photons or red \
-         pixels. A list is graded without the number of photons emitted and with 10,000: both \
-         are told.\n"
+         pixels. A list is graded without the number of photons emitted and with 10,000, a \
+         picture with 1,000,000: both are told.\n"
     );
     let head: Vec<String> = COUNTS.iter().map(usize::to_string).collect();
     println!("| made up | {} |\n|---{}|", head.join(" | "), "|---".repeat(COUNTS.len()));
