@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use grading::judge_list::Expectations;
 use grading::picture::view::{PIXELS, View};
@@ -13,13 +13,14 @@ use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 
 type Rand<'a> = &'a mut dyn FnMut() -> f32;
+type Make<'a> = dyn Fn(usize, Rand) -> Vec<Vec3> + Sync + 'a;
 
 /// A way to make up points.
 pub struct Kind<'a> {
     /// What was done.
     pub name: &'static str,
     /// Makes so many.
-    make: Box<dyn Fn(usize, Rand) -> Vec<Vec3> + Sync + 'a>,
+    make: Box<Make<'a>>,
 }
 
 impl Kind<'_> {
@@ -126,8 +127,8 @@ pub fn kinds<'a>(expectations: &'a Expectations) -> Vec<Kind<'a>> {
         kind(
             "ring",
             Box::new(move |part, _| {
-                let (sine, cosine) = (TAU * part).sin_cos();
-                on(floor, [0.5 + 0.4 * cosine, 0.5 + 0.4 * sine])
+                let way = 0.4 * Vec2::from_angle(TAU * part);
+                on(floor, [0.5 + way.x, 0.5 + way.y])
             }),
         ),
         Kind { name: "grid on floor", make: Box::new(grid(floor)) },
