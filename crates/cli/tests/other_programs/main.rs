@@ -71,7 +71,10 @@ fn other_programs_are_judged_and_named_rightly() {
                 let may_be_unnamed = case.misreading.strip_suffix('?');
                 let is_named = misreading == may_be_unnamed.unwrap_or(&case.misreading)
                     || may_be_unnamed.is_some() && misreading.is_empty();
-                let is_right = grade["verdict"] == case.verdict.as_str() && is_named;
+                // Points strewn by hand, and photons at two places, have nothing of a photon map.
+                let has_points = ["f08", "t17"].iter().any(|it| name.starts_with(it))
+                    || grade["score"].as_f64() > Some(0.0);
+                let is_right = grade["verdict"] == case.verdict.as_str() && is_named && has_points;
                 let found = format!("{name} {known:?}: {} {misreading}", grade["verdict"]);
                 (!is_right).then(|| format!("{found}, expected {} {}", case.verdict, case.what))
             })
