@@ -11,6 +11,9 @@ use super::verdict::{Finding, Weight};
 use compare::numbers::thousands;
 use variants::section::Section;
 
+/// The check of photons that crowd on spots or lines.
+pub const SPREAD: &str = "spread";
+
 /// What can be said without statistics.
 pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding> {
     let counts = &observation.counts;
@@ -88,7 +91,7 @@ pub fn plain_findings(observation: &Observation, places: &Places) -> Vec<Finding
     findings.push(Finding {
         p_value: (!is_repeated && !is_identical).then_some(observation.crowding),
         ..fact(
-            "spread",
+            SPREAD,
             storage,
             "photons spread over the surfaces, not on a few spots or lines",
             if is_crowded { "they crowd on a few spots or lines" } else { "they spread" }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::bounces::{BOUNCES_BY_PLACE, bounce_findings};
 use super::direct::{is_ruled_out, shows_direct};
 use super::evidence::Evidence as _;
-use super::facts::{ENOUGH_PHOTONS, enough, plain_findings, remarks};
+use super::facts::{ENOUGH_PHOTONS, SPREAD, enough, plain_findings, remarks};
 use super::few::StoredByPaths;
 use super::limits::MOSTLY;
 pub use super::limits::SIGNIFICANCE;
@@ -155,7 +155,8 @@ pub fn judge(
     if findings.iter().any(|finding| finding.is_fault() && finding.check != ENOUGH_PHOTONS) {
         // Photons that are stored again and again say no more than one.
         let distinct = Observation { counts: observation.distinct.clone(), ..observation.clone() };
-        let recognized = not_recognized(&OfList { observation: &distinct, ..list });
+        let is_crowded = findings.iter().any(|it| it.is_fault() && it.check == SPREAD);
+        let recognized = not_recognized(&OfList { observation: &distinct, ..list }, is_crowded);
         findings.splice(..0, recognized);
     }
     Judgment { findings, explanation, pair, reading, signature, emitted: trial.emitted }

@@ -25,6 +25,7 @@
 //! without a name. `golden/grading.md` has what all of this achieves.
 
 mod axes;
+mod beside;
 mod bounces;
 pub mod crowding;
 mod direct;
@@ -53,4 +54,5 @@ pub mod statistics;
 pub mod submission;
 pub mod text;
 mod trial;
+mod unjudged;
 pub mod verdict;

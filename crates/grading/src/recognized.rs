@@ -6,24 +6,54 @@
 use super::evidence::Evidence;
 use super::expected::bisect;
 use super::limits::expected::SIZES;
-use super::limits::{EVEN, FEWEST_RED, MADE_UP, MORE_EVEN};
-use super::verdict::{Finding, Weight};
+use super::limits::{
+    CROWDED, EVEN, FEW_PLACES_EVEN, FEWEST_PLACES, MADE_UP, MORE_EVEN, MORE_EVEN_OF_FEW,
+    ONE_SURFACE,
+};
+use super::verdict::{Finding, Verdict, Weight};
 
 /// The check of what a grade is given for at all.
 pub const RECOGNIZED: &str = "photon map";
+/// The check of whether that can be told.
+pub const RECOGNIZABLE: &str = "enough to recognize";
 
-/// The finding that nothing of the photon map is in `evidence`, if so.
-pub(crate) fn not_recognized<E: Evidence>(evidence: &E) -> Option<Finding> {
+/// The verdict whose points a submission gets: of too few photons those of an undecided one, and of
+/// what is no photon map those of an unreadable one.
+pub fn scored_as(verdict: Verdict, findings: &[Finding]) -> Verdict {
+    let fails = |check: &str| findings.iter().any(|it| it.is_fault() && it.check == check);
+    match verdict {
+        _ if fails(RECOGNIZED) => Verdict::Unreadable,
+        _ if fails(RECOGNIZABLE) => Verdict::Undecided,
+        verdict => verdict,
+    }
+}
+
+/// The finding that nothing of the photon map is in `evidence`, or that so little is in it that
+/// this cannot be told. `is_crowded` tells whether it crowds on spots or lines.
+pub(crate) fn not_recognized<E: Evidence>(evidence: &E, is_crowded: bool) -> Option<Finding> {
+    let counts = evidence.of_cells();
+    let (unit, on_cells) = (E::WORDS.unit, counts.iter().sum::<f64>());
+    let places = on_cells + evidence.strays();
+    if places < FEWEST_PLACES {
+        let finding = Finding::new(
+            RECOGNIZABLE,
+            format!("{unit} at {FEWEST_PLACES} places or more"),
+            format!("{unit} at {places} places, too few to recognize a photon map"),
+            "So few look the same whether a program made them or a hand: a person must look. Hand \
+             in the list of a run of 1,000,000 photons.",
+        );
+        return Some(finding.weighing(Weight::Fault));
+    }
     let apart = to_nearest(evidence);
-    let unit = E::WORDS.unit;
-    let places = evidence.of_cells().iter().sum::<f64>() + evidence.strays();
-    let found = if places < FEWEST_RED {
-        format!("{unit} at {places} places, too few to show a pattern")
-    } else if apart > MADE_UP {
+    let on_one = evidence.of_facets().into_iter().fold(0.0, f64::max) / on_cells.max(1.0);
+    let found = if apart > if is_crowded { CROWDED } else { MADE_UP } {
         format!("{:.0} % of the {unit} lie where nothing that is known leaves them", 100.0 * apart)
+    } else if on_one > ONE_SURFACE {
+        format!("{:.0} % of the {unit} lie on one surface, where light reaches all", 100.0 * on_one)
     } else {
         let uneven = to_even(evidence);
-        if uneven >= EVEN || uneven + MORE_EVEN >= apart {
+        let more = if places < FEW_PLACES_EVEN { MORE_EVEN_OF_FEW } else { MORE_EVEN };
+        if uneven >= EVEN || uneven + more >= apart {
             return None;
         }
         format!("{unit} that lie evenly all over the surfaces, as no light leaves them")
@@ -39,13 +69,10 @@ pub(crate) fn not_recognized<E: Evidence>(evidence: &E) -> Option<Finding> {
 }
 
 /// The part of the counts that would have to move until they are as the nearest hypothesis leaves
-/// them, fair or not: all that are in no cell, and all of so few that they show no pattern.
+/// them, fair or not: all that are in no cell too.
 fn to_nearest<E: Evidence>(evidence: &E) -> f64 {
     let counts = evidence.of_cells();
     let (found, strays) = (counts.iter().sum::<f64>(), evidence.strays());
-    if found < FEWEST_RED {
-        return 1.0;
-    }
     let table = evidence.table();
     let to_each = table.fair.iter().chain(table.faults()).map(|known| {
         let means = |emitted| evidence.means(known, emitted);

@@ -3,27 +3,23 @@
 use std::path::{Path, PathBuf};
 
 use super::axes;
+use super::beside::{apart, own, own_picture};
 use super::exact::exact_comparison;
 use super::facts::ENOUGH_PHOTONS;
 use super::judge_list::{Expectations, Judgment, judge};
 use super::limits::FEW_EMITTED;
 use super::naming::Explanation;
 use super::observation::observe;
-use super::own;
-use super::picture::dots::{FoundDots, find_dots};
 use super::picture::judge_picture;
-use super::picture::reading::read_picture;
-use super::picture::view::{PIXELS, View};
 use super::policy::Policy;
-use super::recognized::RECOGNIZED;
-use super::text::{printable, rounded};
+use super::recognized::scored_as;
+use super::unjudged::{no_photons, not_readable, too_few, without_bounces};
+pub use super::unjudged::{remark, unreadable};
 use super::verdict::{Finding, Grade, Verdict, Weight};
 pub use crate::limits::submission::MOST_RECORDS;
-use crate::limits::submission::{FEW_STORED, FEWEST_DOTS, TOGETHER};
 use photon_list::error::{ListError, Reason};
 use photon_list::reader::{self, PhotonList};
 use photon_mapping::assignment8;
-use variants::section::Section;
 
 /// What one student handed in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -152,34 +148,6 @@ fn not_read(submission: &Submission, settings: &Settings, error: &std::io::Error
     Graded { try_again: true, ..unreadable(submission, settings, &reason) }
 }
 
-/// What the course is told, if this program's own list was handed in.
-fn own(graded: &Graded, settings: &Settings) -> Option<String> {
-    let (list, _) = graded.list.as_ref()?;
-    own::seed_of(&list.records, settings.seed).map(|seed| told_own("photons", seed))
-}
-
-/// The same for a picture.
-fn own_picture(picture: &Path, settings: &Settings, expectations: &Expectations) -> Option<String> {
-    let (dots, view) = dots_of(picture, expectations)?;
-    own::seed_of_picture(&dots.red, view, settings.seed).map(|seed| told_own("dots", seed))
-}
-
-fn told_own(what: &str, seed: u64) -> String {
-    format!(
-        "the {what} are all or part of what this program produces with --seed {seed}; a correct \
-         program that draws the same random numbers produces them, too"
-    )
-}
-
-/// The dots of `picture`, and the view in which they are.
-fn dots_of<'a>(picture: &Path, expectations: &'a Expectations) -> Option<(FoundDots, &'a View)> {
-    let expectations = expectations.pictures();
-    let picture = read_picture(picture).ok()?;
-    let dots = find_dots(&picture, &expectations.view, || expectations.shifted()).ok()?;
-    let view = if dots.is_shifted { expectations.shifted() } else { &expectations.view };
-    Some((dots, view))
-}
-
 /// `reason` without the contents of the file `path`, if a link may lead to somebody else's.
 fn told(path: &Path, reason: &Reason) -> String {
     if is_link(path) { reason.message.clone() } else { reason.to_string() }
@@ -207,13 +175,7 @@ fn grade_picture(
         let found = if judgment.has_dots { "dots" } else { "no dot" };
         return without_bounces(submission, settings, None, found, !judgment.has_dots);
     }
-    let mut faults = judgment.findings.iter().filter(|finding| finding.is_fault()).peekable();
-    let verdict = match (faults.peek().is_some(), judgment.has_dots) {
-        (false, _) => Verdict::Correct,
-        (true, false) => Verdict::NoDots,
-        (true, true) if faults.all(|fault| fault.check == ENOUGH_PHOTONS) => Verdict::Undecided,
-        (true, true) => Verdict::Incorrect,
-    };
+    let verdict = judgment.verdict();
     let because = Because {
         explanation: judgment.explanation.as_ref(),
         pair: judgment.pair.as_ref(),
@@ -227,74 +189,17 @@ fn grade_picture(
     graded
 }
 
-/// A remark, if the dots of `picture` are not the photons of `list`.
-fn apart(list: &PhotonList, picture: &Path, expectations: &Expectations) -> Option<Finding> {
-    let (dots, view) = dots_of(picture, expectations)?;
-    let mut of_list = vec![false; PIXELS];
-    for record in &list.records {
-        view.for_each_pixel_of(record.position, |pixel| of_list[pixel] = true);
-    }
-    let inside = |pixel: &usize| view.patch(*pixel).is_some();
-    let count = |is_counted: &dyn Fn(usize) -> bool| {
-        (0..PIXELS).filter(inside).filter(|pixel| is_counted(*pixel)).count() as f64
-    };
-    let both = count(&|pixel| dots.red[pixel] && of_list[pixel]);
-    let [of_picture, of_list] = [count(&|pixel| dots.red[pixel]), count(&|pixel| of_list[pixel])];
-    let least = of_picture.min(of_list);
-    let fewer = (of_picture / of_list).min(of_list / of_picture);
-    if least < FEWEST_DOTS || (both > TOGETHER * least && fewer > TOGETHER) {
-        return None;
-    }
-    let found = format!(
-        "of {} red pixels of the picture and {} of the list's photons, {} are the same",
-        rounded(of_picture),
-        rounded(of_list),
-        rounded(both)
-    );
-    let advice = "Hand in the list and the picture of one run: the list is what is graded.";
-    Some(remark("list and picture", "dots where the list's photons are", &found, advice))
-}
-
-/// The remark that `records` photons are too few to tell a fair reading from a misreading.
-fn too_few(records: u64) -> Finding {
-    remark(
-        "enough to tell",
-        &format!("the photons of at least {FEW_EMITTED} emitted: about {FEW_STORED}"),
-        &format!("{records} photons, too few to tell a correct program from others"),
-        "Hand in the list of a run of 1,000,000 photons. If you meant to emit so few, grade with \
-         --emitted.",
-    )
-}
-
-/// A finding that costs nothing.
-pub fn remark(check: &'static str, expected: &str, found: &str, advice: &'static str) -> Finding {
-    Finding::new(check, expected, printable(found), advice)
-}
-
-/// The grade of a submission that is none, for `reason`.
-pub fn unreadable(submission: &Submission, settings: &Settings, reason: &str) -> Graded {
-    let because = Because { findings: vec![not_readable(reason)], ..Because::default() };
-    because.graded(submission, settings, Verdict::Unreadable, None)
-}
-
-fn not_readable(reason: &str) -> Finding {
-    let expected = "a photon list (CSV or PLY, with the columns x, y and z), or a picture";
-    let advice = "Hand in the list that photon_dump.hpp writes, or the PNG picture as the program \
-                  wrote it.";
-    remark("readable", expected, reason, advice).weighing(Weight::Grave)
-}
-
 /// What a verdict is given for.
 #[derive(Default)]
-struct Because<'a> {
-    findings: Vec<Finding>,
-    explanation: Option<&'a Explanation>,
-    pair: Option<&'a Explanation>,
-    emitted: Option<u64>,
+pub(super) struct Because<'a> {
+    pub(super) findings: Vec<Finding>,
+    pub(super) explanation: Option<&'a Explanation>,
+    pub(super) pair: Option<&'a Explanation>,
+    pub(super) emitted: Option<u64>,
 }
 
 impl Because<'_> {
-    fn graded(
+    pub(super) fn graded(
         self,
         submission: &Submission,
         settings: &Settings,
@@ -306,16 +211,12 @@ impl Because<'_> {
         let mut explained = explanation.iter().chain(&pair);
         let stores_direct = explained.any(|it| it.hypothesis.variation.stores_direct());
         let mut faults = findings.iter().filter(|finding| finding.is_fault());
-        let is_recognized = faults.clone().all(|finding| finding.check != RECOGNIZED);
         let is_plausible = faults.all(|finding| finding.weight != Weight::Grave) && !stores_direct;
         Graded::new(Grade {
             submission: submission.name.clone(),
             emitted: emitted.or(settings.emitted),
             stored,
-            score: match is_recognized {
-                true => settings.policy.score(verdict, misreading, is_plausible),
-                false => settings.policy.unreadable,
-            },
+            score: settings.policy.score(scored_as(verdict, &findings), misreading, is_plausible),
             verdict,
             misreading,
             misreading_confidence: explanation.map(|explanation| explanation.confidence),
@@ -376,38 +277,4 @@ pub fn grade_list(
     };
     let graded = because.graded(submission, settings, verdict, Some(observation.records));
     Graded { list: Some((list, judgment)), ..graded }
-}
-
-/// The grade of a submission with what is `found`, where none may bounce and so none may be stored.
-fn without_bounces(
-    submission: &Submission,
-    settings: &Settings,
-    stored: Option<u64>,
-    found: &str,
-    is_right: bool,
-) -> Graded {
-    let finding = Finding::new(
-        "photons",
-        "no photon: one is stored only after it has bounced",
-        format!("{found}, where no photon may bounce"),
-        "Insert a photon only where the size of 'path' is larger than 1, and trace no further than \
-         the bounces that are left.",
-    );
-    let finding = finding.weighing(Weight::Grave).passed_if(is_right).of(Section::PhotonStorage);
-    let verdict = if is_right { Verdict::Correct } else { Verdict::Incorrect };
-    let because = Because { findings: vec![finding], ..Because::default() };
-    because.graded(submission, settings, verdict, stored)
-}
-
-fn no_photons(submission: &Submission, settings: &Settings) -> Graded {
-    let finding = Finding::new(
-        "photons",
-        "photons that have bounced",
-        "the list is empty",
-        "Insert a photon where the size of 'path' is larger than 1; check that 'path' grows and \
-         that TracePhoton calls itself.",
-    );
-    let finding = finding.weighing(Weight::Fault).of(Section::PhotonStorage);
-    let because = Because { findings: vec![finding], ..Because::default() };
-    because.graded(submission, settings, Verdict::NoDots, Some(0))
 }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use grading::policy::{Policy, SectionPoints, points};
-use grading::recognized::RECOGNIZED;
+use grading::recognized::scored_as;
 use grading::verdict::{Grade, Verdict};
 
 /// The rubric by `policy`, with the row of `grade` marked; or the points of each section, where
@@ -31,12 +31,12 @@ pub fn rubric(grade: &Grade, policy: &Policy) -> Markup {
     );
     rows.push(row(*no_dots, "no dots", Verdict::NoDots));
     rows.push(row(*unreadable, "nothing that can be read, or no photon map", Verdict::Unreadable));
-    rows.push(row(*undecided, "too few photons to tell: needs a look", Verdict::Undecided));
-    let mut faults = grade.findings.iter().filter(|finding| finding.is_fault());
-    let verdict = match faults.any(|fault| fault.check == RECOGNIZED) {
-        true => Verdict::Unreadable,
-        false => grade.verdict,
-    };
+    rows.push(row(
+        *undecided,
+        "too few photons to tell or to recognize: needs a look",
+        Verdict::Undecided,
+    ));
+    let verdict = scored_as(grade.verdict, &grade.findings);
     let is_row = |row: &(f64, String, Verdict)| row.2 == verdict && row.0 == grade.score;
     // The last of those that fit: a score of a misreading's own stands after the others.
     let chosen = rows.iter().rposition(is_row);

@@ -52,9 +52,9 @@ exist, and the others are still graded.
 Policy: a JSON object of scores. Those left out are
   { \"correct\": 4, \"undecided\": 0, \"plausible\": 3, \"incorrect\": 2, \"no-dots\": 1, \
 \"unreadable\": 0, \"misreadings\": {}, \"sections\": {} }
-'undecided' means too few photons to decide: judge these yourself. 'plausible' is for incorrect \
-photons that are finite, on surfaces and indirect. 'unreadable' is also for what has nothing of a \
-photon map in it. 'misreadings' gives named misreadings a score of their own: \
+'undecided' means too few photons to decide or to recognize: judge these yourself. 'plausible' is \
+for incorrect photons that are finite, on surfaces and indirect. 'unreadable' is also for what has \
+nothing of a photon map in it. 'misreadings' gives named misreadings a score of their own: \
 { \"misreadings\": { \"no-offset\": 3.5 } }. 'sections' gives points to each section that \
 'check' finds right, by its title.
 

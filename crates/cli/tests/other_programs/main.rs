@@ -26,11 +26,12 @@ struct Case {
     what: String,
 }
 
-/// The program, compiled into `folder`. Without g++ nothing is tested, unless `CI` is set.
-fn tracer(folder: &Path) -> Option<PathBuf> {
+/// The program, compiled with `options` into `folder`. Without g++ nothing is tested, unless `CI` is
+/// set.
+fn tracer(folder: &Path, options: &[&str]) -> Option<PathBuf> {
     let program = folder.join("tracer");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_programs/tracer.cpp");
-    let compiled = Command::new("g++").args(["-O2", "-o"]).args([&program, &source]).status();
+    let compiled = Command::new("g++").args(options).arg("-o").args([&program, &source]).status();
     match compiled {
         Ok(status) => {
             assert!(status.success());
@@ -44,10 +45,16 @@ fn tracer(folder: &Path) -> Option<PathBuf> {
     }
 }
 
+/// Runs `tracer` with its switches, the number of photons and the seed, which writes `list`.
+fn trace(tracer: &Path, settings: [&str; 3], list: &Path, form: [&str; 2]) {
+    let traced = Command::new(tracer).args(settings).arg(list).args(form).output();
+    assert!(traced.expect("it runs").status.success(), "{}", list.display());
+}
+
 #[test]
 fn other_programs_are_judged_and_named_rightly() {
     let folder = folder();
-    let Some(tracer) = tracer(folder.path()) else { return };
+    let Some(tracer) = tracer(folder.path(), &["-O2"]) else { return };
     let cases = csv::Reader::from_reader(include_str!("cases.csv").as_bytes());
     let cases: Vec<Case> = cases.into_deserialize().collect::<Result<_, _>>().expect("well formed");
     let wrong: Vec<String> = cases
@@ -55,13 +62,7 @@ fn other_programs_are_judged_and_named_rightly() {
         .flat_map_iter(|case| {
             let Case { name, switches, columns, digits, emitted, seed, .. } = case;
             let list = folder.path().join(format!("{name}.csv"));
-            let traced = Command::new(&tracer)
-                .args([&switches.replace('+', ","), emitted, seed])
-                .arg(&list)
-                .args([columns, digits])
-                .output()
-                .expect("it runs");
-            assert!(traced.status.success(), "{name}");
+            trace(&tracer, [&switches.replace('+', ","), emitted, seed], &list, [columns, digits]);
             // With the number of photons known and not known.
             [&[][..], &["--emitted", emitted]].map(|known| {
                 let words = ["grade", "--format", "json"].iter().chain(known);
@@ -70,7 +71,10 @@ fn other_programs_are_judged_and_named_rightly() {
                 let may_be_unnamed = case.misreading.strip_suffix('?');
                 let is_named = misreading == may_be_unnamed.unwrap_or(&case.misreading)
                     || may_be_unnamed.is_some() && misreading.is_empty();
-                let is_right = grade["verdict"] == case.verdict.as_str() && is_named;
+                // Points strewn by hand, and photons at two places, have nothing of a photon map.
+                let has_points = ["f08", "t17"].iter().any(|it| name.starts_with(it))
+                    || grade["score"].as_f64() > Some(0.0);
+                let is_right = grade["verdict"] == case.verdict.as_str() && is_named && has_points;
                 let found = format!("{name} {known:?}: {} {misreading}", grade["verdict"]);
                 (!is_right).then(|| format!("{found}, expected {} {}", case.verdict, case.what))
             })
@@ -78,4 +82,20 @@ fn other_programs_are_judged_and_named_rightly() {
         .flatten()
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn the_arithmetic_of_other_compilers_is_correct() {
+    for options in [&["-O2", "-mfpmath=387"][..], &["-O3", "-ffast-math", "-march=native"]] {
+        let folder = folder();
+        let Some(tracer) = tracer(folder.path(), options) else { return };
+        for (emitted, seed) in [("200000", "3148"), ("1000000", "3149")] {
+            let list = folder.path().join("list.csv");
+            trace(&tracer, ["nbasis", emitted, seed], &list, ["all", "9"]);
+            let words = ["grade", "--format", "json", "--emitted", emitted].map(|it| it.as_ref());
+            let grade = json(run(words.into_iter().chain([list.as_os_str()])));
+            assert_eq!(grade["verdict"], "correct", "{options:?} {emitted}: {grade}");
+        }
+    }
 }

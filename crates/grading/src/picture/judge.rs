@@ -7,11 +7,12 @@ use super::expectations::PictureExpectations;
 use super::view::View;
 use super::words;
 use crate::evidence::Evidence;
+use crate::facts::ENOUGH_PHOTONS;
 use crate::limits::{ALL_RED, FEW_EMITTED, FEWEST_RED, RARE, SATURATED, SIGNIFICANCE};
 use crate::naming::{Explanation, candidates, most_likely};
 use crate::recognized::not_recognized;
 use crate::trial::best_trial;
-use crate::verdict::Finding;
+use crate::verdict::{Finding, Verdict};
 
 /// What the dots of a picture say.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +35,17 @@ impl PictureJudgment {
     /// Whether there are dots, but not those of the handout.
     pub fn is_incorrect(&self) -> bool {
         self.has_dots && self.findings.iter().any(Finding::is_fault)
+    }
+
+    /// What these findings come to.
+    pub fn verdict(&self) -> Verdict {
+        let mut faults = self.findings.iter().filter(|finding| finding.is_fault()).peekable();
+        match (faults.peek().is_some(), self.has_dots) {
+            (false, _) => Verdict::Correct,
+            (true, false) => Verdict::NoDots,
+            (true, true) if faults.all(|fault| fault.check == ENOUGH_PHOTONS) => Verdict::Undecided,
+            (true, true) => Verdict::Incorrect,
+        }
     }
 }
 
@@ -104,7 +116,7 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
         None => OfPicture::WORDS.unexplained.into(),
     };
     let reading = &picture.table().fair[trial.reading].hypothesis;
-    let recognized = is_wrong.then(|| not_recognized(picture)).flatten();
+    let recognized = is_wrong.then(|| not_recognized(picture, false)).flatten();
     let of_trial = trial.findings(&reading.title, explanation.as_ref(), &unexplained);
     let mut findings: Vec<Finding> = recognized.into_iter().chain(of_trial).collect();
     if picture.emitted.is_none() {
