@@ -13,7 +13,14 @@ use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 impl OfPicture<'_> {
     /// The fair reading, of positions that are off their surfaces, and of enough photons, under
     /// which the picture is least strange; with how far off they are.
+    ///
+    /// Where only boxes have dots, positions are so far off that a few micrometers decide how many
+    /// are left: then the number of photons tells nothing.
     pub(super) fn best_trial_off_surface(&self) -> Option<(Trial, f64)> {
+        if self.emitted.is_some() && self.is_bare() {
+            let coverage = self.coverage.clone();
+            return Self { emitted: None, coverage, ..*self }.best_trial_off_surface();
+        }
         let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= FEW_EMITTED;
         let is_short = self.counts.iter().sum::<f64>() < FEW_RED;
         let can_fail = |trial: &Trial| is_short || trial.groups >= FEWEST_GROUPS;
@@ -40,6 +47,12 @@ impl OfPicture<'_> {
         sums
     }
 
+    /// Whether facets that are straight have no dots.
+    fn is_bare(&self) -> bool {
+        let [_, straight] = self.askew_and_straight(self.counts);
+        straight < FEWEST_RED
+    }
+
     /// Whether the askew facets have fewer dots than the others, beside what `trial` leads to
     /// expect: they are the first to lose some where positions are off.
     pub(super) fn may_be_off_surface(&self, trial: &Trial) -> bool {
@@ -60,17 +73,14 @@ impl OfPicture<'_> {
         };
         let [askew, straight] = self.askew_and_straight(self.counts);
         let radius = f64::from(PHOTON_DOT_RADIUS);
-        let [first, last] = [STANDOFFS[0], STANDOFFS[STANDOFFS.len() - 1]];
-        let is_bare = straight < FEWEST_RED;
         let size = match self.emitted {
             Some(emitted) => emitted,
-            None if is_bare => {
+            None if self.is_bare() => {
                 let bare = STANDOFFS.into_iter().filter(|standoff| *standoff > radius);
                 return bare.step_by(3).collect();
             }
             None => bisect(SIZES, |size| expect(size, 0.0)[1] < straight),
         };
-        let range = if is_bare { [radius * 1.0001, last] } else { [first, radius] };
-        vec![bisect(range, |standoff| expect(size, standoff)[0] > askew)]
+        vec![bisect([STANDOFFS[0], radius], |standoff| expect(size, standoff)[0] > askew)]
     }
 }
