@@ -203,13 +203,14 @@ fn a_picture_decides_beside_what_is_no_photon_list() {
     assert_eq!(grade["verdict"], "correct", "{grade:#}");
     assert!(remarks(grade).contains("kdtree.csv"), "{grade:#}");
     // A photon map with mistakes decides.
-    let photons = csv(1, 60_000);
-    let shifted = |line: &str| match line.split_once(',') {
-        Some((x, rest)) if x != "x" => format!("{},{rest}\n", x.parse::<f32>().unwrap() + 0.1),
-        _ => line.to_owned() + "\n",
-    };
+    let uniform = Variation { hemisphere: Hemisphere::Uniform, ..Variation::default() };
+    let mut wrong = "x,y,z\n".to_owned();
+    for record in Simulation::new(uniform, 9, 60_000, 1000).trace(0..60_000) {
+        let [x, y, z] = record.position.to_array();
+        wrong += &format!("{x},{y},{z}\n");
+    }
     write(at("wrong/assignment8.png"), &picture);
-    write(at("wrong/photons.csv"), photons.lines().map(shifted).collect::<String>());
+    write(at("wrong/photons.csv"), wrong);
     assert_eq!(grades(&[], &[&at("wrong")])[0]["verdict"], "incorrect");
 }
 

@@ -125,9 +125,12 @@ pub fn grade_at_most(
         if !is_read || (is_picture_read && is_recognizable(&of_picture)) {
             let of_list = graded.grade.findings.remove(0);
             // Where the picture says nothing either, both reasons do.
-            let weight = if is_picture_read { Weight::Remark } else { Weight::Grave };
+            let (weight, decides) = match is_picture_read {
+                true => (Weight::Remark, ": the picture decides"),
+                false => (Weight::Grave, ""),
+            };
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let found = printable(&format!("{name}: {}", of_list.found));
+            let found = printable(&format!("{name}: {}{decides}", of_list.found));
             let of_list = Finding { check: "photon list", weight, found, ..of_list };
             of_picture.grade.findings.push(of_list);
             of_picture.try_again &= graded.try_again;

@@ -57,15 +57,21 @@ impl Found {
     /// or a picture.
     pub fn search(folder: &Path) -> io::Result<Self> {
         let mut found = Self::default();
-        found.search_more(folder)?;
+        found.search_below(folder)?;
+        let root = fs::canonicalize(folder)?;
         found.hidden.sort();
         for path in found.hidden.clone() {
-            let mut inner = Self { entries: found.entries, ..Self::default() };
-            inner.looked_at = found.looked_at;
-            let searched = match path.is_dir() && !path.is_symlink() {
-                true => inner.search_more(&path),
-                false => inner.sort(&path, folder, &fs::canonicalize(folder)?, &mut Vec::new()),
-            };
+            if found.looked_at > MOST_LOOKED_AT {
+                break;
+            }
+            // Within what is left of the same limits.
+            let Self { entries, looked_at, .. } = found;
+            let mut inner = Self { entries, looked_at, ..Self::default() };
+            let mut folders = Vec::new();
+            let mut searched = inner.sort(&path, folder, &root, &mut folders);
+            if let [hidden] = folders.as_slice() {
+                searched = inner.search_below(hidden);
+            }
             (found.entries, found.looked_at) = (inner.entries, inner.looked_at);
             if searched.is_ok() && inner.is_something() {
                 found.hidden_submissions.push(path);
@@ -74,7 +80,7 @@ impl Found {
         Ok(found)
     }
 
-    fn search_more(&mut self, folder: &Path) -> io::Result<()> {
+    fn search_below(&mut self, folder: &Path) -> io::Result<()> {
         let found = self;
         let root = fs::canonicalize(folder)?;
         let mut level = vec![folder.to_owned()];

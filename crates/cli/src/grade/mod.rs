@@ -39,8 +39,8 @@ Submissions: a file is a submission, and so is a folder. The list and the pictur
 are found by their contents. alice.csv and alice.png are one submission.
 
 Classes: a folder is a class if it has no list or picture of its own, but folders of at least \
-two students do. Use --class or --submission if a folder could be either. A faulty \
-submission does not stop the others.
+two students do, or if all its files have names from Canvas or Moodle. Use --class or \
+--submission if a folder could be either. A faulty submission does not stop the others.
 
 Several lists or pictures in one folder: the one called photons or assignment8 is judged, or any \
 if all are the same. Otherwise none is. A remark names those left out.
