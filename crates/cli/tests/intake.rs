@@ -13,6 +13,7 @@ use serde_json::Value;
 use support::{
     csv, fails, folder, grades, json, program, remarks, run_line, stderr, stdout, write,
 };
+use variants::variation::{Hemisphere, Simulation, Variation};
 
 /// Asks `grade` for `name` in `folder`, which must be refused with both readings and each of
 /// `expected`.
