@@ -14,7 +14,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::error::CliError;
-use super::output::write;
+use super::output::{temporary_folder, write};
 use super::{grade, values};
 
 /// Folders deeper than this are not searched, nor more files than this.
@@ -170,7 +170,7 @@ fn judged(what: &str, words: &[&str], submission: &Path, arguments: &AutogradeAr
 fn run_verb(words: &[OsString], submission: &Path, seconds: u64) -> Result<Value, String> {
     let said = |error: std::io::Error| error.to_string();
     // Files, not pipes: a full pipe would stop the program.
-    let folder = tempfile::tempdir().map_err(said)?;
+    let folder = temporary_folder().map_err(said)?;
     let paths = ["stdout", "stderr"].map(|name| folder.path().join(name));
     let [stdout, stderr] = paths.each_ref().map(File::create);
     let mut child = Command::new(std::env::current_exe().map_err(said)?)

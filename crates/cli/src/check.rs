@@ -11,7 +11,7 @@ use check::wall::{Wall, wall};
 use check::{CheckReport, CheckSettings, check};
 use clap::{Args, ValueEnum};
 use classroom::gradescope;
-use classroom::intake::class::left_out;
+use classroom::intake::class::{is_litter, left_out};
 use classroom::page::{Pages, index::Index};
 use grading::policy::Policy;
 use grading::verdict::Grade;
@@ -23,7 +23,7 @@ use super::error::{CliError, print_whole};
 use super::grade::{INDEX, json, made_by, places_of_each};
 use super::gradebook::{GradebookArgs, Roll};
 use super::in_order::InOrder;
-use super::output::{OutputFile, protect, write};
+use super::output::{OutputFile, protect, protect_folders, refuse_protected, write};
 use super::{progress, values};
 
 /// The columns of the table after those of every gradebook.
@@ -129,6 +129,8 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         let found = paths.len();
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
     }
+    protect_folders(&arguments.submissions);
+    arguments.list.as_deref().map_or(Ok(()), refuse_protected)?;
     let (folder, files) = places_of_each(
         arguments.format.of_each(),
         arguments.out.as_deref(),
@@ -262,7 +264,8 @@ fn submissions(arguments: &CheckArgs) -> Result<Vec<PathBuf>, CliError> {
         let students = CppSubmission::of_class(class).map_err(argument)?;
         let entries = fs::read_dir(class).into_iter().flatten().flatten();
         let paths = entries.map(|entry| entry.path());
-        let mut others: Vec<PathBuf> = paths.filter(|path| !students.contains(path)).collect();
+        let mut others: Vec<PathBuf> =
+            paths.filter(|path| !students.contains(path) && !is_litter(path)).collect();
         others.sort();
         let note = left_out(class, &others, "no folder of a student");
         note.iter().for_each(|note| super::complain(&format!("note: {note}")));

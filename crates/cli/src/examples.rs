@@ -18,12 +18,21 @@ const EXAMPLES: [(&str, &str); 9] = [
     ("kit", "photon-mapping kit gradescope --out kit/"),
 ];
 
-/// The command line, with an example for each verb.
+/// The command line, with an example for each verb, and what holds for the outputs of all.
 pub fn command() -> Command {
-    EXAMPLES.iter().fold(Cli::command().arg(option()), |command, (verb, example)| {
+    let command = EXAMPLES.iter().fold(Cli::command().arg(option()), |command, (verb, example)| {
         command.mut_subcommand(verb, |verb| {
             let before = verb.get_after_help().map(|help| format!("{help}\n\n"));
             verb.after_help(format!("{}Example: {example}", before.unwrap_or_default()))
+        })
+    });
+    command.mut_subcommands(|verb| {
+        verb.mut_args(|arg| match arg.get_id() == "out" {
+            true => {
+                let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+                arg.help(format!("{help}; '-' is refused"))
+            }
+            false => arg,
         })
     })
 }

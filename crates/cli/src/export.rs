@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::CliError;
 use super::input;
+use classroom::intake::class::student_in;
 
 /// What a roster or an export tells of a student.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -95,21 +96,8 @@ pub fn roster(path: &Path) -> Result<Vec<Student>, CliError> {
 
 /// The student whose name a course system put into the `name` of a file or folder.
 pub fn in_name(name: &str) -> Option<Student> {
-    let parts: Vec<&str> = name.split('_').collect();
-    let is_number = |part: &&str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
-    let student = |name: &str, id: &str| {
-        Some(Student { name: name.to_owned(), id: id.to_owned(), email: String::new() })
-    };
-    match parts.as_slice() {
-        // Moodle: Jane Doe_1234_assignsubmission_file
-        [name, id, "assignsubmission", ..] if is_number(id) => student(name, id),
-        // Canvas: doejane_LATE_1234_5678_photons
-        [name, "LATE", id, number, _, ..] if is_number(id) && is_number(number) => {
-            student(name, id)
-        }
-        [name, id, number, _, ..] if is_number(id) && is_number(number) => student(name, id),
-        _ => None,
-    }
+    let (name, id) = student_in(name)?;
+    Some(Student { name: name.to_owned(), id: id.to_owned(), email: String::new() })
 }
 
 /// The students of Gradescope's exports among `paths`, by their folders: what a student hands in

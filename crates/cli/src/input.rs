@@ -26,11 +26,13 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     }
 }
 
-/// The text of the file `path`.
+/// The text of the file `path`, without the mark that some editors put first.
 ///
 /// # Errors
 /// Those of [`bytes`], and when it is not UTF-8.
 pub fn text(path: &Path) -> Result<String, CliError> {
     let not_text = || io::Error::other("expected UTF-8 text");
-    String::from_utf8(bytes(path)?).map_err(|_| CliError::unreadable(path, not_text()))
+    let text = String::from_utf8(bytes(path)?);
+    let text = text.map_err(|_| CliError::unreadable(path, not_text()))?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }

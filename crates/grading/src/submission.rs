@@ -112,18 +112,26 @@ pub fn grade_at_most(
         }
         Err(ListError::Unreadable { source, .. }) => not_read(submission, settings, &source),
     };
-    if let (Some(picture), Verdict::Unreadable) = (&submission.picture, graded.grade.verdict) {
-        let of_list = graded.grade.findings.remove(0);
+    let is_read = graded.grade.verdict != Verdict::Unreadable;
+    if let Some(picture) =
+        submission.picture.as_ref().filter(|_| !(is_read && is_recognizable(&graded)))
+    {
         let mut of_picture = grade_picture(submission, picture, settings, expectations);
-        // Where the picture says nothing either, both reasons do.
-        let weight = match of_picture.grade.verdict {
-            Verdict::Unreadable => Weight::Grave,
-            _ => Weight::Remark,
-        };
-        let of_list = Finding { check: "photon list", weight, ..of_list };
-        of_picture.grade.findings.push(of_list);
-        of_picture.try_again &= graded.try_again;
-        return Some(of_picture);
+        let is_picture_read = of_picture.grade.verdict != Verdict::Unreadable;
+        if !is_read || (is_picture_read && is_recognizable(&of_picture)) {
+            let of_list = graded.grade.findings.remove(0);
+            // Where the picture says nothing either, both reasons do.
+            let (weight, decides) = match is_picture_read {
+                true => (Weight::Remark, ": the picture decides"),
+                false => (Weight::Grave, ""),
+            };
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let found = printable(&format!("{name}: {}{decides}", of_list.found));
+            let of_list = Finding { check: "photon list", weight, found, ..of_list };
+            of_picture.grade.findings.push(of_list);
+            of_picture.try_again &= graded.try_again;
+            return Some(of_picture);
+        }
     }
     if let Some(picture) = &submission.picture {
         let emitted = settings.emitted.map(|emitted| emitted as f64);
@@ -140,6 +148,12 @@ pub fn grade_at_most(
         }
     }
     Some(graded)
+}
+
+/// Whether something of a photon map is recognizable in what was `graded`.
+fn is_recognizable(graded: &Graded) -> bool {
+    let mut faults = graded.grade.findings.iter().filter(|finding| finding.is_fault());
+    faults.all(|fault| fault.check != RECOGNIZED)
 }
 
 /// The grade of a submission of which a file could not be read because of `error`.

@@ -1,56 +1,15 @@
 //! Whether a folder is a class, and who is in it.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::folder::{Found, has_extension, within};
+use super::folder::{Found, has_extension, is_of_camera, within};
+pub use super::names::{is_litter, student_in};
+use super::names::{is_own_file, is_part};
 use grading::picture::kinds::{self, Kind, kind};
+use grading::text::printable;
 use photon_list::reader::{Look, look};
-
-/// What students call the folders in their own.
-const PARTS: [&str; 34] = [
-    "assets",
-    "assignment8",
-    "bin",
-    "build",
-    "cmake",
-    "code",
-    "data",
-    "debug",
-    "doc",
-    "docs",
-    "external",
-    "figures",
-    "framework",
-    "images",
-    "include",
-    "lib",
-    "media",
-    "models",
-    "out",
-    "output",
-    "outputs",
-    "photons",
-    "pictures",
-    "release",
-    "render",
-    "renders",
-    "report",
-    "result",
-    "results",
-    "scenes",
-    "screenshots",
-    "source",
-    "src",
-    "textures",
-];
-
-/// Whether a name is that of a part of a submission, and not of a student's.
-fn is_part(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let course = ["assignment", "cs148", "photon"];
-    PARTS.contains(&name.as_str()) || course.iter().any(|word| name.contains(word))
-}
 
 /// What lies in a folder itself.
 #[derive(Default)]
@@ -59,6 +18,8 @@ struct Children {
     /// Links and archives, which are submissions of a class, too.
     others: Vec<PathBuf>,
     lists: Vec<PathBuf>,
+    /// Called like lists, or of three columns, but hardly of photons.
+    unlikely: Vec<PathBuf>,
     pictures: Vec<PathBuf>,
     rest: Vec<PathBuf>,
     hidden: Vec<PathBuf>,
@@ -71,6 +32,7 @@ impl Children {
             .into_iter()
             .flatten()
             .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| !is_litter(path))
             .collect();
         paths.sort();
         for path in paths {
@@ -86,16 +48,34 @@ impl Children {
                 &mut children.rest
             } else if matches!(kind(&start(), &path), Some(Kind::Picture(_))) {
                 &mut children.pictures
-            } else if has_extension(&path, &["csv", "ply"])
-                || look(&path).is_ok_and(|look| look != Look::Other)
-            {
-                &mut children.lists
             } else {
-                &mut children.rest
+                match look(&path).unwrap_or(Look::Other) {
+                    Look::List => &mut children.lists,
+                    Look::Other if !has_extension(&path, &["csv", "ply"]) => &mut children.rest,
+                    Look::Unlikely | Look::Other => &mut children.unlikely,
+                }
             };
             place.push(path);
         }
         children
+    }
+
+    /// A file of each student who seems to have some here, by the stem, or what a course system put
+    /// first.
+    fn students(&self) -> BTreeMap<String, PathBuf> {
+        let unlikely = self.unlikely.iter().filter(|_| self.pictures.is_empty());
+        let pictures = self.pictures.iter().filter(|path| is_of_camera(path) != Some(false));
+        let mut students = BTreeMap::new();
+        for file in self.lists.iter().chain(unlikely).chain(pictures) {
+            let stem = stem(file);
+            let name = match student_in(&stem) {
+                Some((name, id)) => format!("{name}_{id}_0_"),
+                None if is_own_file(&stem) => continue,
+                None => stem,
+            };
+            students.entry(name).or_insert_with(|| file.clone());
+        }
+        students
     }
 }
 
@@ -104,39 +84,130 @@ fn is_called_packed(path: &Path) -> bool {
     has_extension(path, &["zip", "gz", "tgz", "xz", "7z", "rar", "bz2", "zst", "tar"])
 }
 
-/// Whether `folder` is a class: it has no list or picture itself, but at least two folders that are
-/// not called like parts of a submission have, together more than one submission can. `Err` names
-/// both readings where it could be either.
-pub fn is_class(folder: &Path) -> Result<bool, String> {
-    let Children { folders, lists, pictures, .. } = Children::of(folder);
-    let has_own = !lists.is_empty() || !pictures.is_empty();
+/// A class.
+#[derive(Default)]
+pub struct Class {
+    /// The folder with the submissions.
+    pub folder: PathBuf,
+    /// Those submissions that are classes themselves.
+    pub classes: Vec<PathBuf>,
+}
+
+/// The class in `folder`, or at the end of a chain of single folders in it, if it is one: it has no
+/// list or picture itself, but at least two folders that are not called like parts of a submission
+/// have, together more than one submission can. `Err` names both readings where it could be either.
+pub fn class_in(folder: &Path) -> Result<Option<Class>, String> {
+    let (inner, is_wrapped) = innermost(folder);
+    match is_class(&inner)? {
+        Some(_) if is_wrapped => Err(both_readings(&inner)),
+        class => Ok(class),
+    }
+}
+
+/// The folder of the class `folder`, which the grader has called one.
+pub fn unwrapped(folder: &Path) -> PathBuf {
+    let inner = || innermost(folder).0;
+    match class_in(folder) {
+        Ok(Some(class)) => class.folder,
+        Err(_) if Children::of(&inner()).folders.is_empty() => inner(),
+        Ok(None) | Err(_) => folder.to_owned(),
+    }
+}
+
+/// Where a chain of single folders from `folder` ends, and whether the names or files on the way
+/// are those of a submission.
+fn innermost(folder: &Path) -> (PathBuf, bool) {
+    const LONGEST_CHAIN: usize = 6;
+    let (mut inner, mut is_of_submission) = (folder.to_owned(), false);
+    for _ in 0..LONGEST_CHAIN {
+        let Children { folders, others, lists, unlikely, pictures, rest, hidden: _ } =
+            Children::of(&inner);
+        let has_own = [others, lists, unlikely, pictures].iter().any(|paths| !paths.is_empty());
+        let [only] = folders.as_slice() else { break };
+        if has_own {
+            break;
+        }
+        is_of_submission |= !rest.is_empty() || is_part(only);
+        inner = only.clone();
+    }
+    (inner, is_of_submission)
+}
+
+fn is_class(folder: &Path) -> Result<Option<Class>, String> {
+    let children = Children::of(folder);
+    let own = children.students();
+    let Children { folders, lists, unlikely, pictures, .. } = children;
+    let has_own = [&lists, &unlikely, &pictures].iter().any(|paths| !paths.is_empty());
     let named: Vec<&PathBuf> = folders.iter().filter(|path| !is_part(path)).collect();
-    let found = |path: &&PathBuf| Found::search(path).ok().filter(Found::is_something);
-    let students: Vec<Found> = named.iter().filter_map(found).collect();
-    let sum = |count: fn(&Found) -> usize| students.iter().map(count).sum::<usize>();
-    let lists = sum(|found| found.lists.len() + found.unlikely.len());
+    let found = |path: &&PathBuf| {
+        Some((path.to_path_buf(), Found::search(path).ok().filter(Found::is_something)?))
+    };
+    let students: Vec<(PathBuf, Found)> = named.iter().filter_map(found).collect();
+    let sum =
+        |count: fn(&Found) -> usize| students.iter().map(|(_, found)| count(found)).sum::<usize>();
+    let classes: Vec<PathBuf> = students
+        .iter()
+        .filter(|(path, found)| has_several(path, found))
+        .map(|(path, _)| path.clone())
+        .collect();
+    let files = [&lists, &pictures, &unlikely].into_iter().flatten();
+    let is_exported = files.clone().all(|file| student_in(&stem(file)).is_some());
+    let exported: BTreeSet<_> = own.keys().filter(|name| student_in(name).is_some()).collect();
+    let stems: BTreeSet<String> = files.map(|file| stem(file)).collect();
+    let is_one = Ok(None);
+    let class = Ok(Some(Class { folder: folder.to_owned(), classes: classes.clone() }));
     match students.len() {
-        0 => Ok(false),
-        1 if has_own || named.len() == 1 => Ok(false),
+        0 if exported.len() > 1 && is_exported => class,
+        0 if own.len() > 1 && (stems.len() > 2 || exported.len() > 1) => Err(both_readings(folder)),
+        0 => is_one,
+        _ if has_own && own.len() > 1 => Err(both_readings(folder)),
+        1 if has_own || named.len() == 1 => is_one,
         // Beside its own list or picture, other pictures are those of a program.
-        2.. if has_own && sum(|found| found.lists.len()) == 0 => Ok(false),
-        2.. if !has_own && (lists > 1 || sum(|found| found.pictures.len()) > 1) => Ok(true),
+        2.. if has_own && sum(|found| found.lists.len()) == 0 => is_one,
+        2.. if classes.len() == students.len() => Err(both_readings(&classes[0])),
+        2.. if !has_own
+            && (sum(|found| found.lists.len() + found.unlikely.len()) > 1
+                || sum(|found| found.pictures.len()) > 1) =>
+        {
+            class
+        }
         _ => Err(both_readings(folder)),
     }
 }
 
+/// Whether what was `found` in `folder` is that of several students: it lies in two of its folders
+/// at least, and none in itself.
+fn has_several(folder: &Path, found: &Found) -> bool {
+    let tables = found.unlikely.iter().filter(|path| has_extension(path, &["csv"]));
+    let lists: Vec<&PathBuf> = found.lists.iter().chain(tables).collect();
+    let pictures = found.pictures.iter().filter(|path| is_of_camera(path) != Some(false));
+    let files = if lists.is_empty() { pictures.collect() } else { lists };
+    let inner = |file: &&PathBuf| -> Option<PathBuf> {
+        let mut parts = file.strip_prefix(folder).ok()?.components();
+        let first = parts.next()?;
+        parts.next().map(|_| folder.join(first))
+    };
+    let folders: Option<BTreeSet<PathBuf>> = files.iter().map(inner).collect();
+    folders.is_some_and(|folders| folders.iter().filter(|path| !is_part(path)).count() > 1)
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
 /// What `folder` could be: one submission or a class.
 pub fn both_readings(folder: &Path) -> String {
-    let folders = Children::of(folder).folders;
-    let named: Vec<&PathBuf> = folders.iter().filter(|path| !is_part(path)).collect();
-    let names: Vec<String> = named.iter().take(3).map(|path| within(path, folder)).collect();
+    let children = Children::of(folder);
+    let folders = children.folders.iter().filter(|path| !is_part(path)).cloned();
+    let students: Vec<PathBuf> = folders.chain(children.students().into_values()).collect();
+    let names: Vec<String> = students.iter().take(3).map(|path| within(path, folder)).collect();
     format!(
         "{}: it could be one submission, or a class of {} students ({}{}): grade it with \
          --submission or --class",
-        folder.display(),
-        named.len(),
+        printable(&folder.display().to_string()),
+        students.len(),
         names.join(", "),
-        if named.len() > 3 { ", ..." } else { "" }
+        if students.len() > 3 { ", ..." } else { "" }
     )
 }
 
@@ -144,7 +215,8 @@ pub fn both_readings(folder: &Path) -> String {
 pub fn students(folder: &Path) -> (Vec<PathBuf>, Vec<String>) {
     let children = Children::of(folder);
     let mut students =
-        [children.folders, children.others, children.lists, children.pictures].concat();
+        [children.folders, children.others, children.lists, children.unlikely, children.pictures]
+            .concat();
     students.sort();
     let hidden = left_out(folder, &children.hidden, "names with a dot are no submissions");
     let rest = left_out(folder, &children.rest, "no list, picture or folder");

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 use super::contents::same_contents;
+use super::names::is_litter;
 use grading::picture::kinds::{self, Kind, kind};
 use grading::text::printable;
 use photon_list::reader::{LONGEST_START, Look, look};
@@ -41,7 +42,10 @@ pub struct Found {
     pub is_partial: bool,
     /// What was left out because its name starts with a dot.
     hidden: Vec<PathBuf>,
-    /// How many bytes were read.
+    /// Those of them that have a list or a picture.
+    hidden_submissions: Vec<PathBuf>,
+    /// How many files there are, and how many bytes of them were read.
+    entries: usize,
     looked_at: u64,
 }
 
@@ -53,9 +57,33 @@ impl Found {
     /// or a picture.
     pub fn search(folder: &Path) -> io::Result<Self> {
         let mut found = Self::default();
+        found.search_below(folder)?;
+        let root = fs::canonicalize(folder)?;
+        found.hidden.sort();
+        for path in found.hidden.clone() {
+            if found.looked_at > MOST_LOOKED_AT {
+                break;
+            }
+            // Within what is left of the same limits.
+            let Self { entries, looked_at, .. } = found;
+            let mut inner = Self { entries, looked_at, ..Self::default() };
+            let mut folders = Vec::new();
+            let mut searched = inner.sort(&path, folder, &root, &mut folders);
+            if let [hidden] = folders.as_slice() {
+                searched = inner.search_below(hidden);
+            }
+            (found.entries, found.looked_at) = (inner.entries, inner.looked_at);
+            if searched.is_ok() && inner.is_something() {
+                found.hidden_submissions.push(path);
+            }
+        }
+        Ok(found)
+    }
+
+    fn search_below(&mut self, folder: &Path) -> io::Result<()> {
+        let found = self;
         let root = fs::canonicalize(folder)?;
         let mut level = vec![folder.to_owned()];
-        let mut entries = 0;
         let mut is_cut = false;
         for depth in 0..=MOST_LEVELS {
             let mut next = Vec::new();
@@ -71,11 +99,11 @@ impl Found {
                     Ok(names) => names,
                 };
                 for name in names {
-                    if entries == MOST_ENTRIES || found.looked_at > MOST_LOOKED_AT {
+                    if found.entries == MOST_ENTRIES || found.looked_at > MOST_LOOKED_AT {
                         is_cut = true;
                         break;
                     }
-                    entries += 1;
+                    found.entries += 1;
                     let path = inner.join(&name);
                     if name.to_string_lossy().starts_with('.') {
                         found.hidden.push(path);
@@ -96,7 +124,7 @@ impl Found {
                  too much to read, and the rest was not searched"
             ));
         }
-        Ok(found)
+        Ok(())
     }
 
     /// Puts `path` where it belongs; folders go to `folders`.
@@ -172,14 +200,16 @@ impl Found {
         if self.lists.is_empty() && self.pictures.is_empty() {
             // The reader of pictures says what to hand in instead.
             self.pictures = self.documents;
-            if self.pictures.is_empty() && !self.hidden.is_empty() {
-                let names = names_of(&self.hidden, folder);
-                notes.push(format!("left out: {names}: names with a dot are no part of it"));
+            if self.pictures.is_empty() {
+                self.hidden_submissions = self.hidden;
             }
         }
+        if !self.hidden_submissions.is_empty() {
+            let names = names_of(&self.hidden_submissions, folder);
+            notes.push(format!("left out: {names}: names with a dot are no part of it"));
+        }
         let list = choice("photon lists", self.lists, left_out, folder, &mut notes, |_| false);
-        let size = |path: &PathBuf| kinds::png_size(&kinds::start(path).ok()?);
-        let is_of_camera = |path: &PathBuf| size(path) == Some((WIDTH, HEIGHT));
+        let is_of_camera = |path: &PathBuf| is_of_camera(path) == Some(true);
         let picture =
             choice("pictures", self.pictures, Vec::new(), folder, &mut notes, is_of_camera);
         let choice = match (list, picture) {
@@ -187,6 +217,10 @@ impl Found {
             (Ok(Some(list)), Err(problem)) => {
                 notes.push(problem);
                 Ok((Some(list), None))
+            }
+            (Err(problem), Ok(Some(picture))) => {
+                notes.push(problem);
+                Ok((None, Some(picture)))
             }
             (Err(problem), _) | (_, Err(problem)) => Err(problem),
         };
@@ -201,6 +235,7 @@ fn names(folder: &Path) -> io::Result<Vec<OsString>> {
     for entry in fs::read_dir(folder)?.take(MOST_NAMES) {
         names.push(entry?.file_name());
     }
+    names.retain(|name| !is_litter(Path::new(name)));
     names.sort_by_cached_key(|name| {
         let path = PathBuf::from(name);
         let is_likely = is_called_a_list(&path) || has_extension(&path, &["png"]);
@@ -208,6 +243,11 @@ fn names(folder: &Path) -> io::Result<Vec<OsString>> {
         (is_hidden, !is_usual(&path), !is_likely, name.clone())
     });
     Ok(names)
+}
+
+/// Whether the PNG `path` has the size of the handout's camera, if it tells its size.
+pub fn is_of_camera(path: &Path) -> Option<bool> {
+    Some(kinds::png_size(&kinds::start(path).ok()?)? == (WIDTH, HEIGHT))
 }
 
 /// Whether `path` is called as this program and the handout call it.

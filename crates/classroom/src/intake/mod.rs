@@ -3,18 +3,21 @@
 pub mod class;
 pub mod contents;
 mod folder;
+mod names;
 
 use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use class::Class;
 use contents::{Contents, contents, is_named_twice};
 use folder::Found;
 use grading::picture::kinds::{self, Kind};
 use grading::picture::reading::MOST_BYTES;
 use grading::submission::Submission;
 use grading::text::printable;
+use names::is_litter;
 
 /// A submission, and what there is to say about its files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -50,6 +53,8 @@ pub struct Collected {
     pub handed_in: Vec<HandedIn>,
     /// The folders that could be a class or one submission, and why.
     pub ambiguous: Vec<String>,
+    /// The folders of the classes.
+    pub classes: Vec<PathBuf>,
     /// What in a class is no submission.
     pub notes: Vec<String>,
 }
@@ -59,38 +64,47 @@ pub struct Collected {
 pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     let mut collected = Collected::default();
     let mut all = Vec::new();
-    let is_class = |path: &PathBuf| match folders {
-        Folders::Class => Ok(path.is_dir()),
-        Folders::Submission => Ok(false),
-        Folders::Clear if path.is_dir() => class::is_class(path),
-        Folders::Clear => Ok(false),
+    // A pattern for all files of a folder names these, too.
+    let paths: Vec<&PathBuf> =
+        paths.iter().filter(|path| paths.len() == 1 || !is_litter(path)).collect();
+    let class_in = |path: &&PathBuf| match folders {
+        Folders::Class if path.is_dir() => {
+            Ok(Some(Class { folder: class::unwrapped(path), ..Class::default() }))
+        }
+        Folders::Clear if path.is_dir() => class::class_in(path),
+        _ => Ok(None),
     };
-    let are_classes: Vec<Result<bool, String>> = paths.iter().map(is_class).collect();
-    let are_all = are_classes.iter().all(|is_class| *is_class == Ok(true));
-    for (path, is_class) in paths.iter().zip(are_classes) {
-        let is_class = match is_class {
+    let classes: Vec<Result<Option<Class>, String>> = paths.iter().map(class_in).collect();
+    let are_all = classes.iter().all(|class| matches!(class, Ok(Some(_))));
+    let mut is_class_itself = Vec::new();
+    for (path, class) in paths.into_iter().zip(classes) {
+        match class {
             // A student who hands in folders with others' names is no class.
-            Ok(true) if folders == Folders::Clear && !are_all => {
-                collected.ambiguous.push(class::both_readings(path));
-                continue;
+            Ok(Some(class)) if folders == Folders::Clear && !are_all => {
+                collected.ambiguous.push(class::both_readings(&class.folder));
             }
-            Err(why) => {
-                collected.ambiguous.push(why);
-                continue;
+            Ok(Some(class)) => {
+                let (students, mut notes) = class::students(&class.folder);
+                all.extend(students.into_iter().map(|student| (student, true)));
+                collected.notes.append(&mut notes);
+                collected.classes.push(class.folder);
+                is_class_itself.extend(class.classes);
             }
-            Ok(is_class) => is_class,
-        };
-        if is_class {
-            let (students, mut notes) = class::students(path);
-            all.extend(students.into_iter().map(|student| (student, true)));
-            collected.notes.append(&mut notes);
-        } else {
-            all.push((path.clone(), false));
+            Ok(None) => all.push((path.clone(), false)),
+            Err(why) => collected.ambiguous.push(why),
         }
     }
     let mut handed_in: Vec<HandedIn> =
         all.iter().map(|(path, is_of_class)| from(path, *is_of_class)).collect();
     let paths: Vec<PathBuf> = all.into_iter().map(|(path, _)| path).collect();
+    for (one, path) in handed_in.iter_mut().zip(&paths) {
+        // It costs the others nothing, and gets a grade that says so.
+        if is_class_itself.contains(path) {
+            let why = class::both_readings(path);
+            one.problem = Some(why.clone());
+            collected.ambiguous.push(why);
+        }
+    }
     join_stems(&mut handed_in, &paths);
     let mut seen: HashMap<String, usize> = HashMap::new();
     for one in &mut handed_in {

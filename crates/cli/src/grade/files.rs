@@ -18,7 +18,7 @@ const LONGEST_NAME: usize = 100;
 /// file.
 ///
 /// # Errors
-/// If `out` cannot be such a folder, or has files of another run.
+/// If `out` cannot be such a folder, has files of another run, or is handed in.
 pub fn places_of_each<'a>(
     extension: Option<&str>,
     out: Option<&Path>,
@@ -35,8 +35,14 @@ pub fn places_of_each<'a>(
                 "--out: expected a folder, for each of {count} submissions has a file of its own"
             )));
         }
-        _ => return Ok((None, files)),
+        (_, out) => {
+            out.map_or(Ok(()), output::refuse_protected)?;
+            return Ok((None, files));
+        }
     };
+    let index = (extension == Some("html")).then_some(INDEX);
+    let written = files.iter().map(String::as_str).chain(index);
+    written.map(|name| folder.join(name)).try_for_each(|path| output::refuse_protected(&path))?;
     refuse_others(folder, &files, extension.unwrap_or_default())?;
     Ok((Some(folder.to_owned()), files))
 }

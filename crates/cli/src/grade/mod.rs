@@ -13,7 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::error::{CliError, escaped};
 use super::gradebook::GradebookArgs;
-use super::output::protect;
+use super::output::{protect, protect_folders};
 use super::values;
 use class::Class;
 // What `check` has in common with `grade`, where there is `check`.
@@ -39,8 +39,8 @@ Submissions: a file is a submission, and so is a folder. The list and the pictur
 are found by their contents. alice.csv and alice.png are one submission.
 
 Classes: a folder is a class if it has no list or picture of its own, but folders of at least \
-two students do. Use --class or --submission if a folder could be either. A faulty \
-submission does not stop the others.
+two students do, or if all its files have names from Canvas or Moodle. Use --class or \
+--submission if a folder could be either. A faulty submission does not stop the others.
 
 Several lists or pictures in one folder: the one called photons or assignment8 is judged, or any \
 if all are the same. Otherwise none is. A remark names those left out.
@@ -137,12 +137,13 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
         (_, true) => Folders::Submission,
         _ => Folders::Clear,
     };
-    let Collected { mut handed_in, ambiguous, notes } =
+    let Collected { mut handed_in, ambiguous, classes, notes } =
         collect(&input.in_place_of_name(&there), folders);
     input.name(&mut handed_in);
     notes.iter().for_each(|note| eprintln!("note: {}", escaped(note)));
     let files = handed_in.iter().map(|one| [&one.submission.list, &one.submission.picture]);
     protect(files.flatten().flatten());
+    protect_folders(&there);
     // What nobody could grade is told when all others are graded.
     let mut not_graded = ambiguous;
     if !missing.is_empty() {
@@ -152,7 +153,7 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
     if handed_in.is_empty() {
         return Err(CliError::Argument(not_graded.join("; ")));
     }
-    let students = arguments.gradebook.class(&there, &mut handed_in)?;
+    let students = arguments.gradebook.class(&[&there[..], &classes].concat(), &mut handed_in)?;
     let count = handed_in.len() + missing.len();
     let names = handed_in.iter().map(|one| one.submission.name.as_str());
     let (folder, files) =

@@ -1,7 +1,10 @@
 //! A course's own scores.
 
+use std::fmt;
+use std::marker::PhantomData;
 use std::path::Path;
 
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::error::Category;
 use serde_json::{Map, Value};
 
@@ -37,7 +40,7 @@ pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
 /// The policy in `text`, or the line where it is none and why.
 fn parse(text: &str) -> Result<Policy, (usize, String)> {
     // Without this, an array would be taken for the scores in their order.
-    let object: Map<String, Value> = serde_json::from_str(text).map_err(|error| {
+    let pairs: Pairs<Score> = serde_json::from_str(text).map_err(|error| {
         let message = match error.classify() {
             Category::Eof => "expected '}', found the end of the file",
             Category::Data => "expected a JSON object of scores, found something else",
@@ -46,6 +49,7 @@ fn parse(text: &str) -> Result<Policy, (usize, String)> {
         (error.line(), message.to_owned())
     })?;
     let at = |key: &str, message: String| (line_of(text, key), message);
+    let object = pairs.each_once().map_err(|key| at(&key, format!("'{key}' comes twice")))?;
     for (key, value) in &object {
         match value {
             Value::Number(_) if SCORES.contains(&key.as_str()) => {}
@@ -85,10 +89,65 @@ fn parse(text: &str) -> Result<Policy, (usize, String)> {
     }
 }
 
-/// Which line of `text` has `key`.
+/// The keys and values of a JSON object. Others keep the last value of a key that comes twice.
+struct Pairs<V>(Vec<(String, V)>);
+
+/// A value of a policy.
+#[derive(serde::Deserialize)]
+#[serde(untagged)]
+enum Score {
+    Table(Pairs<Value>),
+    Other(Value),
+}
+
+impl<'de, V: Deserialize<'de>> Deserialize<'de> for Pairs<V> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Object<V>(PhantomData<V>);
+        impl<'de, V: Deserialize<'de>> Visitor<'de> for Object<V> {
+            type Value = Pairs<V>;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+                formatter.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pairs<V>, A::Error> {
+                let mut pairs = Vec::new();
+                while let Some(pair) = map.next_entry()? {
+                    pairs.push(pair);
+                }
+                Ok(Pairs(pairs))
+            }
+        }
+        deserializer.deserialize_map(Object(PhantomData))
+    }
+}
+
+impl Pairs<Score> {
+    /// The object, if no key in it or in a table comes twice. `Err` is that key.
+    fn each_once(self) -> Result<Map<String, Value>, String> {
+        let value = |(key, score)| match score {
+            Score::Table(Pairs(scores)) => Ok((key, unique(scores)?.into())),
+            Score::Other(value) => Ok((key, value)),
+        };
+        unique(self.0.into_iter().map(value).collect::<Result<_, String>>()?)
+    }
+}
+
+fn unique(pairs: Vec<(String, Value)>) -> Result<Map<String, Value>, String> {
+    let mut object = Map::new();
+    for (key, value) in pairs {
+        if object.insert(key.clone(), value).is_some() {
+            return Err(key);
+        }
+    }
+    Ok(object)
+}
+
+/// The last line of `text` that has `key`.
 fn line_of(text: &str, key: &str) -> usize {
     let quoted = Value::from(key).to_string();
-    text.lines().position(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
+    let lines: Vec<&str> = text.lines().collect();
+    lines.iter().rposition(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
 }
 
 /// The message that no `kind` is called `name`, with the closest of the `known` names.

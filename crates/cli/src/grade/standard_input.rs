@@ -5,8 +5,9 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use crate::error::CliError;
+use crate::output::temporary_folder;
 use classroom::intake::HandedIn;
-use grading::submission::Submission;
+use grading::text::printable;
 use photon_list::reader::MOST_BYTES;
 
 /// The name of standard input on the command line.
@@ -26,7 +27,7 @@ impl StandardInput {
             return Ok(Self(None));
         }
         let unreadable = |error| CliError::unreadable(path, error);
-        let folder = tempfile::tempdir().map_err(unreadable)?;
+        let folder = temporary_folder().map_err(unreadable)?;
         let mut file = File::create(folder.path().join(STANDARD_INPUT)).map_err(unreadable)?;
         io::copy(&mut io::stdin().lock().take(MOST_BYTES + 1), &mut file).map_err(unreadable)?;
         Ok(Self(Some(folder)))
@@ -42,14 +43,13 @@ impl StandardInput {
         paths.iter().map(|path| file(path).unwrap_or_else(|| path.clone())).collect()
     }
 
-    /// Calls the submission that came from standard input `-`.
+    /// Calls the file `-` in all that is said of `handed_in`.
     pub fn name(&self, handed_in: &mut [HandedIn]) {
         let Some(file) = self.file() else { return };
-        for one in handed_in.iter_mut() {
-            let Submission { name, list, picture } = &mut one.submission;
-            if list.as_ref() == Some(&file) || picture.as_ref() == Some(&file) {
-                *name = STANDARD_INPUT.to_owned();
-            }
+        let name = printable(&file.display().to_string());
+        for one in handed_in {
+            let texts = std::iter::once(&mut one.submission.name).chain(&mut one.twins);
+            texts.for_each(|text| *text = text.replace(&name, STANDARD_INPUT));
         }
     }
 }

@@ -8,12 +8,14 @@ mod unfinished;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
 use super::error::CliError;
+use classroom::page::is_page;
 pub use interrupt::remove_unfinished_files_on_interrupt;
+pub use unfinished::temporary_folder;
 
 /// Files that are read, which no output may replace.
 static INPUTS: Mutex<Vec<Identity>> = Mutex::new(Vec::new());
@@ -24,6 +26,9 @@ type Identity = (u64, u64);
 #[cfg(not(unix))]
 type Identity = PathBuf;
 
+/// Folders of submissions, in which no output may replace anything but a page of this program.
+static SUBMISSIONS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
 /// Endings of file names that no folder is likely to have.
 const FILE_EXTENSIONS: [&str; 10] =
     ["csv", "htm", "html", "json", "md", "obj", "ply", "png", "txt", "zip"];
@@ -32,7 +37,17 @@ const FILE_EXTENSIONS: [&str; 10] =
 pub fn protect<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {
     let files = paths.into_iter().filter(|path| path.as_ref().is_file());
     let files: Vec<Identity> = files.filter_map(|path| identity(path.as_ref())).collect();
-    INPUTS.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).extend(files);
+    lock(&INPUTS).extend(files);
+}
+
+/// From now on no output may replace a file in the `folders` of submissions but pages.
+pub fn protect_folders(folders: &[PathBuf]) {
+    let folders = folders.iter().filter(|folder| folder.is_dir());
+    lock(&SUBMISSIONS).extend(folders.filter_map(|folder| fs::canonicalize(folder).ok()));
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The folder `path` for several files. It is created with the first of them.
@@ -40,6 +55,7 @@ pub fn protect<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {
 /// # Errors
 /// When it is a file, or has the name of one.
 pub fn folder(path: &Path) -> Result<&Path, CliError> {
+    refuse_dash(path)?;
     let expected = |found: &str| {
         let path = path.display();
         let advice = "write --out FOLDER, or --out FOLDER/ for a new one";
@@ -89,6 +105,7 @@ impl OutputFile {
     /// # Errors
     /// When the folder cannot be made or written to, or `path` cannot be replaced.
     pub fn create(path: &Path) -> Result<Self, CliError> {
+        refuse_dash(path)?;
         let unwritable = |error| CliError::unwritable(path, error);
         let place = match fs::metadata(path) {
             Ok(about) if about.is_dir() => {
@@ -98,7 +115,7 @@ impl OutputFile {
                 Destination::Through(tempfile::tempfile().map_err(unwritable)?)
             }
             Ok(about) => {
-                refuse_input(path)?;
+                refuse_protected(path)?;
                 if about.permissions().readonly() {
                     let error = io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only");
                     return Err(unwritable(error));
@@ -152,20 +169,42 @@ impl OutputFile {
     }
 }
 
+/// Refuses `-`, which others take for standard output and files may be called.
+fn refuse_dash(path: &Path) -> Result<(), CliError> {
+    match path == Path::new("-") {
+        false => Ok(()),
+        true => {
+            let message = "--out -: expected a name, found '-': write /dev/stdout for standard \
+                           output, or ./- for a file of this name";
+            Err(CliError::Argument(message.to_owned()))
+        }
+    }
+}
+
 /// Whether `path` is a name of an open file, such as `/dev/stdout`.
 fn is_of_system(path: &Path) -> bool {
     path.starts_with("/dev") || path.starts_with("/proc")
 }
 
-fn refuse_input(path: &Path) -> Result<(), CliError> {
-    let inputs = INPUTS.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    match identity(path).is_some_and(|output| inputs.contains(&output)) {
+/// Refuses to replace the file `path` if it is read, or handed in.
+///
+/// # Errors
+/// When it may not be replaced.
+pub fn refuse_protected(path: &Path) -> Result<(), CliError> {
+    if is_of_system(path) {
+        return Ok(());
+    }
+    let refused = |found: &str| {
+        let message = format!("--out {}: expected another file, found {found}", path.display());
+        Err(CliError::Argument(message))
+    };
+    if identity(path).is_some_and(|output| lock(&INPUTS).contains(&output)) {
+        return refused("one that is read");
+    }
+    let Ok(target) = fs::canonicalize(path) else { return Ok(()) };
+    match lock(&SUBMISSIONS).iter().any(|folder| target.starts_with(folder)) && !is_page(&target) {
+        true => refused("one in the folder of a submission"),
         false => Ok(()),
-        true => {
-            let path = path.display();
-            let message = format!("--out {path}: expected another file, found one that is read");
-            Err(CliError::Argument(message))
-        }
     }
 }
 

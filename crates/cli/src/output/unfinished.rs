@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempDir};
 
 use crate::error::escaped;
 
@@ -45,11 +45,20 @@ pub fn start(folder: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// Removes the unfinished files of this process. After that, no file can be started.
+/// A folder for what is only read by this process, and removed when it ends.
+pub fn temporary_folder() -> io::Result<TempDir> {
+    let mut unfinished = lock(&UNFINISHED);
+    let folder = tempfile::tempdir()?;
+    unfinished.push(folder.path().to_owned());
+    Ok(folder)
+}
+
+/// Removes the unfinished files and temporary folders of this process. After that, none can be
+/// started.
 pub fn remove_own() -> MutexGuard<'static, Vec<PathBuf>> {
     let unfinished = lock(&UNFINISHED);
     for path in unfinished.iter() {
-        let _ = fs::remove_file(path);
+        let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
     }
     unfinished
 }
