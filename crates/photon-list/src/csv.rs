@@ -9,7 +9,7 @@ use std::path::Path;
 
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
-use super::dialect::{Dialect, Naming, commented, with_point};
+use super::dialect::{Dialect, Naming, commented};
 use super::error::{At, ListError};
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
@@ -60,6 +60,7 @@ pub(super) fn start(
             comments += comment.len();
             if comments <= MOST_IN_COMMENTS {
                 let dialect = Dialect::of(comment.trim()).ok();
+                refuse_other_unit(path, number, dialect.as_ref())?;
                 of_comment = dialect.filter(|dialect| dialect.has_header).or(of_comment);
             }
         } else if let (None, Ok(rows)) = (count, row.parse()) {
@@ -70,6 +71,7 @@ pub(super) fn start(
                 (_, Some(dialect)) | (Ok(dialect), None) => (dialect, Some((number, line))),
                 (Err(message), None) => return Err(ListError::in_line(path, number, message)),
             };
+            refuse_other_unit(path, number, Some(&dialect))?;
             return Ok(TextStart { dialect, first, count });
         }
         next = lines.next()?.map(|(number, line)| (number, line.into_owned()));
@@ -79,6 +81,14 @@ pub(super) fn start(
         false => ListError::malformed(path, "expected a photon list, found only comments"),
     })?;
     Ok(TextStart { dialect, first: None, count })
+}
+
+/// Refuses the names in line `number` where they say that positions are not in meters.
+fn refuse_other_unit(path: &Path, number: u64, dialect: Option<&Dialect>) -> Result<(), ListError> {
+    match dialect.and_then(|dialect| dialect.naming.other_unit.clone()) {
+        None => Ok(()),
+        Some(reason) => Err(ListError::in_line(path, number, reason)),
+    }
 }
 
 /// Whether `line` tells Excel what is between values.
@@ -97,7 +107,8 @@ pub(super) fn read(
     let TextStart { mut dialect, first, mut count } = start;
     let mut records = 0;
     let mut number_of_row: Option<Option<u64>> = None;
-    let mut empty = None;
+    let mut empty = 0_u64;
+    let mut first_empty = None;
     let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
         let line = line.trim();
         if line.is_empty() || commented(line).is_some() {
@@ -111,11 +122,12 @@ pub(super) fn read(
             dialect.has_number(line).then(|| u64::from(line.trim_matches('"').starts_with('1')))
         });
         let Some(record) = record(path, line, (number, *next), &dialect, rows)? else {
-            empty = empty.or(Some(number));
+            empty += 1;
+            first_empty = first_empty.or(Some(number));
             return Ok(true);
         };
         // pandas writes nothing for NaN; spreadsheets write empty rows, but at the end.
-        if let Some(line) = empty {
+        if let Some(line) = first_empty {
             return Err(ListError::in_line(
                 path,
                 line,
@@ -135,9 +147,12 @@ pub(super) fn read(
         wants_more = row(number, &line)?;
     }
     if let Some(Some(_)) = number_of_row {
-        let note = "the first value of each row is taken for its number".to_owned();
-        let notes = dialect.naming.note.into_iter().chain([note]);
-        dialect.naming.note = Some(notes.collect::<Vec<_>>().join("; "));
+        dialect.naming.tell("the first value of each row is taken for its number".to_owned());
+    }
+    if let Some(line) = first_empty {
+        let rows = if empty == 1 { "row" } else { "rows" };
+        let note = format!("{empty} {rows} of only empty values, from line {line} on");
+        dialect.naming.tell(note);
     }
     match count {
         Some((expected, line)) if wants_more && expected != records => {
@@ -176,7 +191,7 @@ fn record(
         if text.is_empty() && dialect.cells(row).all(str::is_empty) {
             return Ok(None);
         }
-        rows.set(&mut record, place, Value::Text(&with_point(text)), At::Line(number))?;
+        rows.set(&mut record, place, Value::Cell(text), At::Line(number))?;
     }
     // A separator at the end of a row is not followed by a value.
     match cells.enumerate().filter(|(_, text)| !text.is_empty()).last() {

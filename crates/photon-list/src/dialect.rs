@@ -1,10 +1,8 @@
 //! What the columns of somebody's list are called, and what is between them.
 
-use std::borrow::Cow;
-
 use photon_mapping::photon_list::COLUMNS;
 
-use super::error::start;
+use super::error::{Reason, start};
 use super::record::{Columns, Value};
 
 /// How other programs name the vectors of a photon: in front of a coordinate or a channel.
@@ -28,6 +26,19 @@ const OF_VIEWERS: [&str; 8] = ["nx", "ny", "nz", "red", "green", "blue", "alpha"
 /// No more unknown columns are told.
 const MOST_TOLD: usize = 8;
 
+/// What positions are in: the scene's unit is the meter.
+const METERS: [&str; 9] = [
+    "m",
+    "meter",
+    "meters",
+    "metre",
+    "metres",
+    "world",
+    "world space",
+    "world unit",
+    "world units",
+];
+
 /// Which column each of a file's is.
 #[derive(Debug)]
 pub(super) struct Naming {
@@ -37,6 +48,8 @@ pub(super) struct Naming {
     pub places: Vec<Option<usize>>,
     /// What had to be guessed.
     pub note: Option<String>,
+    /// Why the positions cannot be used, where they are in another unit than meters.
+    pub other_unit: Option<Reason>,
 }
 
 /// How a list in text is written.
@@ -67,6 +80,7 @@ impl Naming {
         }
         let mut places = vec![None; names.len()];
         let mut guessed = Vec::new();
+        let mut other_unit = None;
         for (place, (column, (level, found))) in COLUMNS.iter().zip(best).enumerate() {
             match found.as_slice() {
                 [] if place < 3 => {
@@ -78,24 +92,52 @@ impl Naming {
                     if level > 0 {
                         guessed.push(format!("'{}' for {column}", start(names[*at])));
                     }
+                    if place < 3 && other_unit.is_none() {
+                        other_unit = without_unit(names[*at]).1.and_then(refused_unit);
+                    }
                 }
                 _ => return Err(format!("expected each column once, found '{column}' twice")),
             }
         }
-        let unknown: Vec<String> = names
-            .iter()
-            .zip(&places)
-            .filter(|(name, place)| place.is_none() && !OF_VIEWERS.contains(name))
-            .map(|(name, _)| format!("'{}'", start(name)))
-            .take(MOST_TOLD)
-            .collect();
-        let notes: Vec<String> = [("taken", guessed), ("unknown, so not judged", unknown)]
-            .into_iter()
-            .filter(|(_, names)| !names.is_empty())
-            .map(|(what, names)| format!("{what}: {}", names.join(", ")))
-            .collect();
+        let is_unknown =
+            |(name, place): &(&&str, &Option<usize>)| place.is_none() && !OF_VIEWERS.contains(name);
+        let unknown = names.iter().zip(&places).filter(is_unknown).map(|(name, _)| match *name {
+            "" => "one without a name".to_owned(),
+            name => format!("'{}'", start(name)),
+        });
+        let unknown: Vec<String> = unknown.take(MOST_TOLD).collect();
+        let columns = Columns::at(&places);
+        let mut incomplete = Vec::new();
+        for (name, place) in names.iter().zip(&mut places) {
+            let is_part = match place {
+                Some(3..=5) => !columns.intensity,
+                Some(6..=8) => !columns.to_light,
+                _ => false,
+            };
+            if is_part {
+                incomplete.push(format!("'{}'", start(name)));
+                *place = None;
+            }
+        }
+        let notes: Vec<String> = [
+            ("taken", guessed),
+            ("unknown, so not judged", unknown),
+            ("without the other two of their three, so not judged", incomplete),
+        ]
+        .into_iter()
+        .filter(|(_, names)| !names.is_empty())
+        .map(|(what, names)| format!("{what}: {}", names.join(", ")))
+        .collect();
         let note = (!notes.is_empty()).then(|| notes.join("; "));
-        Ok(Self { columns: Columns::at(&places), places, note })
+        Ok(Self { columns, places, note, other_unit })
+    }
+
+    /// Adds `note` to what is told.
+    pub fn tell(&mut self, note: String) {
+        self.note = Some(match self.note.take() {
+            None => note,
+            Some(notes) => format!("{notes}; {note}"),
+        });
     }
 }
 
@@ -107,19 +149,28 @@ fn place(name: &str) -> Option<(usize, u8)> {
     if let Some(place) = COLUMNS.iter().position(|column| name == *column) {
         return Some((place, 0));
     }
-    let name = without_unit(name);
+    let (name, _) = without_unit(name);
     let same = COLUMNS.iter().position(|column| name.eq_ignore_ascii_case(column));
     same.map(|place| (place, 1)).or_else(|| Some((of_a_vector(name)?, 2)))
 }
 
-/// `x` for `x (m)` and `x [mm]`; what has an index in its brackets keeps them.
-fn without_unit(name: &str) -> &str {
+/// `x` and the unit `m` for `x (m)` and `x [m]`; what has an index in its brackets keeps them.
+fn without_unit(name: &str) -> (&str, Option<&str>) {
     let unit = name.strip_suffix([')', ']']).and_then(|name| name.rsplit_once(['(', '[']));
     let is_index = |unit: &str| matches!(unit, "x" | "y" | "z" | "r" | "g" | "b" | "0" | "1" | "2");
     match unit {
-        Some((name, unit)) if !is_index(&unit.to_ascii_lowercase()) => name.trim_end(),
-        _ => name,
+        Some((name, unit)) if !is_index(&unit.to_ascii_lowercase()) => {
+            (name.trim_end(), Some(unit.trim()))
+        }
+        _ => (name, None),
     }
+}
+
+/// Why positions in `unit` are refused, if they are not in meters.
+fn refused_unit(unit: &str) -> Option<Reason> {
+    let is_meters = METERS.iter().any(|meters| unit.eq_ignore_ascii_case(meters));
+    let message = "expected x, y and z in meters ('m'), the scene's unit".to_owned();
+    (!is_meters).then(|| Reason { message, found: Some(start(unit)) })
 }
 
 /// The place in [`COLUMNS`] of what `position.x`, `intensity[0]` or `toLightRay.direction.z` names.
@@ -170,7 +221,7 @@ impl Dialect {
         while first.last().is_some_and(|name| name.is_empty()) {
             first.pop();
         }
-        let is_number = |text: &&str| Value::Text(&with_point(text)).float().is_some();
+        let is_number = |text: &&str| Value::Cell(text).float().is_some();
         let has_header = !first.iter().all(is_number);
         let mut naming = match first.len() {
             _ if has_header => Naming::of(&first)?,
@@ -199,10 +250,12 @@ impl Dialect {
 
     /// Whether `row` has one value more than the header names, as R writes tables: its number.
     pub fn has_number(&self, row: &str) -> bool {
-        let is_white = self.separator.is_none_or(char::is_whitespace);
+        // Between commas, a number without quotes may be a value as well.
+        let is_plain = self.separator.is_none_or(char::is_whitespace)
+            || ["\"0\"", "\"1\""].iter().any(|number| row.starts_with(number));
         let values: Vec<&str> = self.cells(row).take(self.naming.places.len() + 2).collect();
         self.has_header
-            && is_white
+            && is_plain
             && values.len() == self.naming.places.len() + 1
             && values.last().is_some_and(|last| !last.is_empty())
             && matches!(values[0], "0" | "1")
@@ -211,15 +264,6 @@ impl Dialect {
     /// The values of `row`.
     pub fn cells<'row>(&self, row: &'row str) -> impl Iterator<Item = &'row str> {
         cells(row, self.separator)
-    }
-}
-
-/// `text` with a decimal point, where it may have a decimal comma: between commas only what is
-/// quoted has one.
-pub(super) fn with_point(text: &str) -> Cow<'_, str> {
-    match text.contains(',') {
-        false => Cow::Borrowed(text),
-        true => Cow::Owned(text.replacen(',', ".", 1)),
     }
 }
 
@@ -253,6 +297,9 @@ fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
             }
         };
         rest = after;
-        Some(cell.trim().trim_matches('"'))
+        let cell = cell.trim();
+        // Quotes alone are a value, but for the pair around nothing.
+        let is_quotes = cell != "\"\"" && !cell.is_empty() && cell.bytes().all(|byte| byte == b'"');
+        Some(if is_quotes { cell } else { cell.trim_matches('"') })
     })
 }
