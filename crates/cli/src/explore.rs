@@ -10,7 +10,7 @@ use explore::misreading;
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use oracle::summary::Tally;
-use photon_list::reader::{self, PhotonList};
+use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
 use photon_mapping::assignment8::{self, HEIGHT, WIDTH};
 use photon_mapping::photon_list::PhotonRecord;
@@ -19,6 +19,7 @@ use variants::run::Run;
 
 use super::beside_expected::beside_expected;
 use super::error::{CliError, print};
+use super::other_format::load_list;
 use super::output::{self, OutputFile};
 use super::run_args::RunArgs;
 use super::values;
@@ -74,7 +75,7 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         (Some(path), _) => {
             let name = path.file_name().unwrap_or(path.as_os_str());
             let name = name.to_string_lossy().into_owned();
-            let list = reader::load(path)?;
+            let list = load_list(path)?;
             let recognize = || misreading::recognize(&list, &run);
             let misreading = is_handout.then(recognize).flatten();
             Some((Other::Submission { name, misreading }, list))

@@ -19,6 +19,8 @@ mod in_order;
 mod input;
 mod kit;
 mod merge;
+mod off_surfaces;
+mod other_format;
 mod output;
 mod progress;
 mod render;

@@ -8,7 +8,9 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 
 use super::beside_expected::beside_expected;
-use super::error::CliError;
+use super::error::{CliError, escaped};
+use super::off_surfaces::OffSurfaces;
+use super::other_format::named;
 use super::output::{self, OutputFile};
 use super::progress;
 use super::run_args::RunArgs;
@@ -272,17 +274,30 @@ fn read_list(
     let mut hash = ListHash::default();
     let mut tally = tally(run.scene());
     let mut stored = 0;
+    let mut off_surfaces = OffSurfaces::default();
     let progress = progress::bar(arguments.quiet, "list", 0);
-    let columns = reader::read(path, |record| {
+    let read = reader::read(path, |record| {
         stored += 1;
-        dots.add(scene, run.placement.to_scene(record.position.as_dvec3()));
+        let position = run.placement.to_scene(record.position.as_dvec3());
+        off_surfaces.add(scene, position);
+        dots.add(scene, position);
         hash.update(&[record]);
         if usize::from(record.surface) < surfaces && (1..=1000).contains(&record.bounce) {
             tally.add(&record);
         }
         progress.inc(1);
-    })?;
+    });
     progress.finish_and_clear();
+    let (columns, note) = read.map_err(named)?;
+    let off_surfaces = off_surfaces.most().map(|off| {
+        format!(
+            "{off} of {stored} photons lie on no surface of the scene: their axes or units may \
+             differ from the scene's, which has z up and meters"
+        )
+    });
+    for note in note.into_iter().chain(off_surfaces) {
+        eprintln!("note: {}", escaped(&format!("{}: {note}", path.display())));
+    }
     let (surfaces, total) = match columns.surface && columns.bounce {
         true => {
             let (surfaces, total) = tally.surfaces(stored, 1000, None);
