@@ -109,9 +109,11 @@ pub(super) fn read(
     let mut number_of_row: Option<Option<u64>> = None;
     let mut empty = 0_u64;
     let mut first_empty = None;
+    let mut doubtful = None;
     let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
-        let line = line.trim();
-        if line.is_empty() || commented(line).is_some() {
+        let (whole, line) = (line, line.trim());
+        let is_empty_row = line.is_empty() && dialect.is_empty_row(whole);
+        if (line.is_empty() && !is_empty_row) || commented(line).is_some() {
             return Ok(true);
         }
         if let (0, None, Ok(rows)) = (records, count, line.parse()) {
@@ -119,9 +121,15 @@ pub(super) fn read(
             return Ok(true);
         }
         let next = number_of_row.get_or_insert_with(|| {
-            dialect.has_number(line).then(|| u64::from(line.trim_matches('"').starts_with('1')))
+            let has_number = dialect.has_number(line);
+            doubtful = (has_number && dialect.is_doubtful_number(line)).then_some(number);
+            has_number.then(|| u64::from(line.trim_matches('"').starts_with('1')))
         });
-        let Some(record) = record(path, line, (number, *next), &dialect, rows)? else {
+        let record = match is_empty_row {
+            true => None,
+            false => record(path, line, (number, *next), &dialect, rows)?,
+        };
+        let Some(record) = record else {
             empty += 1;
             first_empty = first_empty.or(Some(number));
             return Ok(true);
@@ -146,6 +154,10 @@ pub(super) fn read(
         let Some((number, line)) = lines.next()? else { break };
         wants_more = row(number, &line)?;
     }
+    let expected = dialect.naming.places.len();
+    if let (Some(line), 1) = (doubtful, records) {
+        return Err(other_number(path, line, expected, expected + 1));
+    }
     if let Some(Some(_)) = number_of_row {
         dialect.naming.tell("the first value of each row is taken for its number".to_owned());
     }
@@ -163,6 +175,10 @@ pub(super) fn read(
     }
 }
 
+fn other_number(path: &Path, line: u64, expected: usize, found: usize) -> ListError {
+    ListError::in_line(path, line, format!("expected {expected} values, found {found}"))
+}
+
 /// The record in `row`, which is line `number` and starts with its own `number_of_row` if there is
 /// one; none where all values are empty.
 fn record(
@@ -177,14 +193,16 @@ fn record(
     if let Some(expected) = number_of_row
         && cells.next().and_then(|cell| cell.parse().ok()) != Some(expected)
     {
-        let message = format!("expected {expected}, the number of the row, as its first value");
+        let names = dialect.naming.places.len();
+        let message = format!(
+            "expected {expected}, the number of the row, as the first of {} values: the header \
+             has {names} names",
+            names + 1
+        );
         return Err(ListError::in_line(path, number, message));
     }
     let places = &dialect.naming.places;
-    let other_number = |found: usize| {
-        let message = format!("expected {} values, found {found}", places.len());
-        ListError::in_line(path, number, message)
-    };
+    let other_number = |found: usize| other_number(path, number, places.len(), found);
     for (seen, place) in places.iter().enumerate() {
         let text = cells.next().ok_or_else(|| other_number(seen))?;
         let Some(place) = *place else { continue };

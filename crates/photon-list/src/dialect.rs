@@ -250,15 +250,23 @@ impl Dialect {
 
     /// Whether `row` has one value more than the header names, as R writes tables: its number.
     pub fn has_number(&self, row: &str) -> bool {
-        // Between commas, a number without quotes may be a value as well.
-        let is_plain = self.separator.is_none_or(char::is_whitespace)
-            || ["\"0\"", "\"1\""].iter().any(|number| row.starts_with(number));
         let values: Vec<&str> = self.cells(row).take(self.naming.places.len() + 2).collect();
         self.has_header
-            && is_plain
             && values.len() == self.naming.places.len() + 1
             && values.last().is_some_and(|last| !last.is_empty())
             && matches!(values[0], "0" | "1")
+    }
+
+    /// Whether the number of `row` may be a value as well, if there is no other row: between commas
+    /// and without quotes.
+    pub fn is_doubtful_number(&self, row: &str) -> bool {
+        self.separator.is_some_and(|letter| !letter.is_whitespace()) && !row.starts_with('"')
+    }
+
+    /// Whether `line`, which is white space, has the separators of a row.
+    pub fn is_empty_row(&self, line: &str) -> bool {
+        self.separator
+            .is_some_and(|letter| line.matches(letter).count() >= self.naming.places.len() - 1)
     }
 
     /// The values of `row`.

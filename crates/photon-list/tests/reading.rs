@@ -111,6 +111,7 @@ fn dialects_of_text() {
             "R, semicolons",
             format!("\"x\";\"y\";\"z\"\n{}", numbered(1, "\"", ";").replace('.', ",")),
         ),
+        ("R, commas without quotes", format!("x,y,z\n{}", numbered(1, "", ","))),
         ("R, tabs", format!("x\ty\tz\n{}", numbered(1, "", "\t"))),
         ("pandas, printed", format!("   x   y  z\n{}", numbered(0, "", "  "))),
         ("NumPy", format!("# x y z\n{}", rows(" "))),
@@ -277,6 +278,8 @@ fn what_is_no_list_is_refused_with_the_line() {
         ("x;y;z\n1;2;3\n#ZAHL!;2;3\n", ["line 3", "found '#ZAHL!'"]),
         ("x,y,z\n1,2,3\n#N/A,2,3\n", ["line 3", "found '#N/A'"]),
         ("x,y,z\n1,2,3\n,,\n,,\n1,2,3\n", ["line 3", "only empty values"]),
+        ("x\ty\tz\n1\t2\t3\n\t\t\n1\t2\t3\n", ["line 3", "only empty values"]),
+        ("x,y,z\n1,2,3,4\n5,6,7,8\n", ["line 3", "expected 2, the number of the row"]),
         ("x,y,z\n1,2,3,,5\n", ["line 2", "expected 3 values, found 5"]),
         ("x,y,z\n1,2,3\n\"\"\"\",\"\"\"\",\"\"\"\"\n", ["line 3", "found '\"\"\"\"'"]),
         ("x y z\n0.5,0.25,0.125\n", ["line 2", "found '0.5,0.25,0.125'"]),
@@ -504,6 +507,9 @@ fn notes(contents: impl AsRef<[u8]>) -> String {
 fn what_is_passed_over_is_reported() {
     assert_eq!(notes(csv()), "");
     assert_eq!(notes(csv() + ",,\n"), "1 row of only empty values, from line 32 on");
+    let tabs = csv().replace(',', "\t");
+    let remark = "tabs between values; 1 row of only empty values, from line 33 on";
+    assert_eq!(notes(tabs + " \n\t\t\n"), remark);
     let many = csv() + &",,\n\"\",\"\",\"\"\n".repeat(20_000);
     assert_eq!(notes(many), "40000 rows of only empty values, from line 32 on");
     let more = "element photon 1\nproperty float x\nelement face 1\nproperty int i\nend_h";
