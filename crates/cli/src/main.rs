@@ -23,6 +23,7 @@ mod off_surfaces;
 mod other_format;
 mod output;
 mod progress;
+mod read_list;
 mod render;
 mod report;
 mod run_args;

@@ -9,8 +9,9 @@ use std::path::Path;
 
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
-use super::dialect::{Dialect, Naming, commented};
+use super::dialect::{Dialect, commented};
 use super::error::{At, ListError};
+use super::naming::Naming;
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
 

@@ -8,8 +8,8 @@ use glam::Vec3;
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
 use super::csv::{self, TextStart};
-use super::dialect::Naming;
 use super::error::{ListError, Reason};
+use super::naming::Naming;
 use super::ply::{self, Header};
 use super::record::{Columns, Rows};
 use super::text::{Lines, decoded};

@@ -11,8 +11,8 @@ use std::path::Path;
 
 use photon_mapping::photon_list::PhotonRecord;
 
-use super::dialect::Naming;
 use super::error::{At, ListError, Reason, start};
+use super::naming::Naming;
 use super::reader::{Input, open};
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
