@@ -9,6 +9,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::error::{CliError, print};
+use super::other_format::load_list;
 use super::output::{OutputFile, write};
 use super::progress;
 use super::run_args::RunArgs;
@@ -122,7 +123,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
     let (reference, mut submission) = match arguments.files.as_slice() {
         [reference, submission] => {
             named = name_run(arguments, reference, &mut run);
-            let load = |path| move || reader::load(path);
+            let load = |path| move || load_list(path);
             let (reference, submission) = rayon::join(load(reference), load(submission));
             (reference?, submission?)
         }
@@ -132,7 +133,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
                 let message = format!("{submission}: expected a photon list, found a picture");
                 return Err(CliError::Argument(message));
             }
-            (trace(&run, arguments.quiet), reader::load(submission)?)
+            (trace(&run, arguments.quiet), load_list(submission)?)
         }
         files => {
             let count = files.len();

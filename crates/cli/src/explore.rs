@@ -9,12 +9,12 @@ use explore::{Exploration, list_of, misreading, stored};
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use oracle::summary::Tally;
-use photon_list::reader;
 use photon_mapping::assignment8::{self, HEIGHT, WIDTH};
 use photon_mapping::rendering::photon_map::PhotonMap;
 
 use super::beside_expected::beside_expected;
 use super::error::{CliError, print};
+use super::other_format::load_list;
 use super::output::{self, OutputFile};
 use super::run_args::RunArgs;
 use super::values;
@@ -70,7 +70,7 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         (Some(path), _) => {
             let name = path.file_name().unwrap_or(path.as_os_str());
             let name = name.to_string_lossy().into_owned();
-            let list = reader::load(path)?;
+            let list = load_list(path)?;
             let recognize = || misreading::recognize(&list, &run);
             let misreading = is_handout.then(recognize).flatten();
             Some((Other::Submission { name, misreading }, list))

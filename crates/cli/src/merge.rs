@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::error::CliError;
 use super::input;
+use super::other_format::other_format;
 use super::output::OutputFile;
 use super::run_summary::{Summary, print_summary};
 use oracle::summary::{Counts, Tally};
@@ -49,7 +50,12 @@ struct CountOnly {
 /// # Errors
 /// When the pieces are not neighbors of one run, or cannot be read, or the list cannot be written.
 pub fn run(arguments: &MergeArgs) -> Result<u8, CliError> {
-    let is_list = |path: &PathBuf| starts_with(path, b"ply");
+    let is_list = |path: &PathBuf| match other_format(path) {
+        Some(found) if !starts_with(path, b"{")? => {
+            Err(malformed(path, format!("expected a PLY list of render, found {found}")))
+        }
+        _ => starts_with(path, b"ply"),
+    };
     let lists: Vec<bool> = arguments.pieces.iter().map(is_list).collect::<Result<_, _>>()?;
     let summary = match &arguments.out {
         Some(out) if lists.iter().all(|is_list| *is_list) => merge_lists(arguments, out)?,
@@ -80,6 +86,10 @@ fn no_list(path: &Path) -> Result<CliError, CliError> {
 
 fn starts_with(path: &Path, start: &[u8]) -> Result<bool, CliError> {
     let unreadable = |source| ListError::Unreadable { path: path.to_owned(), source };
+    if path == Path::new("-") {
+        let message = "-: expected the names of files; merge does not read standard input";
+        return Err(CliError::Argument(message.to_owned()));
+    }
     reader::refuse_pipe(path)?;
     let mut first = Vec::new();
     let file = fs::File::open(path).map_err(unreadable)?;

@@ -2,7 +2,7 @@
 
 use std::io;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
@@ -12,6 +12,7 @@ use super::beside_expected::beside_expected;
 use super::error::CliError;
 use super::output::{self, OutputFile};
 use super::progress;
+use super::read_list::read_list;
 use super::run_args::RunArgs;
 use super::run_summary::{Seconds, Summary, print_summary};
 use super::values;
@@ -20,7 +21,6 @@ use fast::lanes::picture::{CheckedPicture, take_picture};
 use fast::lanes::width::Width;
 use fast::trace::FirstDifference;
 use oracle::summary::Tally;
-use photon_list::reader;
 use photon_list::writer::{Format, ListWriter};
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::ListHash;
@@ -121,7 +121,7 @@ fn render(arguments: &RenderArgs) -> Result<Summary, CliError> {
     let camera = run.placement.camera(assignment8::create_camera(width, height));
     let mut dots = Dots::new(camera, width, height);
     let (mut summary, list_file) = match &arguments.photons_from {
-        Some(path) => (read_list(arguments, path, &run, &mut dots)?, None),
+        Some(path) => (read_list(arguments.quiet, path, &run, &mut dots)?, None),
         None => {
             let (summary, file) = trace(arguments, &run, photons, &mut dots)?;
             (summary, Some(file))
@@ -262,48 +262,8 @@ fn traced(
     }
 }
 
-/// Adds the photons of the list `path` to `dots`.
-fn read_list(
-    arguments: &RenderArgs,
-    path: &Path,
-    run: &Run,
-    dots: &mut Dots,
-) -> Result<Summary, CliError> {
-    let start = Instant::now();
-    let scene = run.scene();
-    let surfaces = scene.mesh_objects().len();
-    let mut hash = ListHash::default();
-    let mut tally = tally(run.scene());
-    let mut stored = 0;
-    let progress = progress::bar(arguments.quiet, "list", 0);
-    let columns = reader::read(path, |record| {
-        stored += 1;
-        dots.add(scene, run.placement.to_scene(record.position.as_dvec3()));
-        hash.update(&[record]);
-        if usize::from(record.surface) < surfaces && (1..=1000).contains(&record.bounce) {
-            tally.add(&record);
-        }
-        progress.inc(1);
-    })?;
-    progress.finish_and_clear();
-    let (surfaces, total) = match columns.surface && columns.bounce {
-        true => {
-            let (surfaces, total) = tally.surfaces(stored, 1000, None);
-            (surfaces, Some(total))
-        }
-        false => (Vec::new(), None),
-    };
-    Ok(Summary {
-        stored,
-        sha256: columns.all().then(|| hash.hex()),
-        seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
-        surfaces,
-        total,
-        ..Summary::default()
-    })
-}
-
-fn tally(scene: &Scene) -> Tally {
+/// Counts by surface and bounce, for the surfaces of `scene`.
+pub fn tally(scene: &Scene) -> Tally {
     Tally::new(scene.mesh_objects().iter().map(|mesh_object| mesh_object.name.clone()))
 }
 

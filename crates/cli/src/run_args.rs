@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::error::{CliError, escaped};
-use super::values;
+use super::{output, values};
 use model::obj::{self, ModelLight};
 use model::placement::Placement;
 use photon_list::reader::refuse_pipe;
@@ -44,6 +44,7 @@ impl SceneArgs {
             Some(path) => {
                 refuse_pipe(path)?;
                 let model = obj::load(path)?;
+                output::protect(&model.libraries);
                 model.notes.iter().for_each(|note| eprintln!("note: {}", escaped(note)));
                 Ok(model::place(model, &self.light))
             }

@@ -202,6 +202,98 @@ fn positions_alone_are_a_list() {
 }
 
 #[test]
+fn lists_in_other_axes_or_units_are_drawn_with_a_note() {
+    let folder = folder();
+    succeed(&folder, &["--photons", "20000", "--size", "8x6", "--format", "csv", "--out", "a"]);
+    let list = fs::read_to_string(folder.path().join("a/photons.csv")).unwrap();
+    let positions: Vec<[f64; 3]> = list
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let numbers: Vec<f64> = line.split(',').take(3).map(|x| x.parse().unwrap()).collect();
+            [numbers[0], numbers[1], numbers[2]]
+        })
+        .collect();
+    let note_of = |turn: &dyn Fn([f64; 3]) -> [f64; 3]| {
+        let row = |[x, y, z]: [f64; 3]| format!("{x:.2},{y:.2},{z:.2}\n");
+        let rows: String = positions.iter().map(|position| row(turn(*position))).collect();
+        fs::write(folder.path().join("p.csv"), format!("x,y,z\n{rows}")).unwrap();
+        let output = run(&folder, &["--photons-from", "p.csv", "--size", "8x6", "--out", "b"]);
+        assert_eq!(output.status.code(), Some(0));
+        text(&output.stderr).to_owned()
+    };
+    assert_eq!(note_of(&|position| position), "");
+    for turn in [
+        &|[x, y, z]: [f64; 3]| [x, z, -y],
+        &|[x, y, z]: [f64; 3]| [z, x, y],
+        &|position: [f64; 3]| position.map(|x| 1000.0 * x),
+        &|position: [f64; 3]| position.map(|x| x / 2.54),
+        &|_| [f64::NAN; 3],
+    ] as [&dyn Fn([f64; 3]) -> [f64; 3]; 5]
+    {
+        let note = note_of(turn);
+        assert!(note.starts_with("note: p.csv: ") && note.lines().count() == 1, "{note}");
+        assert!(note.contains(&format!("of {} photons lie on no surface", positions.len())));
+    }
+}
+
+#[test]
+fn what_a_list_holds_besides_photons_is_told() {
+    let folder = folder();
+    fs::write(folder.path().join("p.csv"), "x,y,z\n0.1,0.1,0\n,,\n,,\n").unwrap();
+    let output = run(&folder, &["--photons-from", "p.csv", "--size", "8x6"]);
+    let note = "note: p.csv: 2 rows of only empty values, from line 3 on\n";
+    assert_eq!(text(&output.stderr), note);
+}
+
+#[test]
+fn other_formats_are_named() {
+    let folder = folder();
+    let tar = [&[b'a'; 257][..], b"ustar\x0000", &[0; 100]].concat();
+    let long = format!("{{\"x\": [{}0]}}", "0.5,".repeat(20_000));
+    let cases: [(&[u8], &str); 9] = [
+        (b"\x1f\x8b\x08\0\0\0\0\0", "a gzip archive"),
+        (b"PK\x03\x04\x14\0", "a zip archive"),
+        (b"\xfd7zXZ\0\0", "an xz archive"),
+        (b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", "a picture (PNG)"),
+        (b"%PDF-1.7\n", "a document (PDF)"),
+        (b"\x93NUMPY\x01\0v\0{'descr': '<f4'}\n", "a NumPy array"),
+        (&tar, "a tar archive"),
+        (b"[{\"x\": 1, \"y\": 2, \"z\": 3}]\n", "JSON"),
+        (long.as_bytes(), "JSON"),
+    ];
+    for (bytes, name) in cases {
+        fs::write(folder.path().join("list"), bytes).unwrap();
+        let parts = ["list: expected a photon list, found ", name];
+        fail(&folder, &["--photons-from", "list"], &parts);
+        // Two pictures are compared as pictures.
+        if !name.contains("PNG") {
+            fail(&folder, &["compare", "list", "list"], &parts);
+        }
+    }
+}
+
+#[test]
+fn no_output_replaces_a_material_library() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("out")).unwrap();
+    let corners = "usemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for name in ["photons.ply", "assignment8.png"] {
+        let material = "newmtl m\nKd 0.5 0.5 0.5\n";
+        let library = path("out").join(name);
+        fs::write(&library, material).unwrap();
+        for (model, mtllib) in [("m.obj", format!("out/{name}")), ("out/m.obj", name.to_owned())] {
+            fs::write(path(model), format!("mtllib {mtllib}\n{corners}")).unwrap();
+            let render = ["--scene", model, "--light", "0,0,1", "--photons", "10", "--size", "8x6"];
+            fail(&folder, &render, &["--out", name, "found one that is read"]);
+            assert_eq!(fs::read_to_string(&library).unwrap(), material);
+        }
+        fs::remove_file(library).unwrap();
+    }
+}
+
+#[test]
 fn quiet_and_piped_runs_show_no_progress() {
     let folder = folder();
     for arguments in [&["--photons", "1000", "--size", "8x6"][..], &["--photons", "1000", "-q"]] {

@@ -110,6 +110,15 @@ fn csv_pieces_are_refused_with_what_to_do() {
     std::fs::write(folder.path().join("counts"), counts.to_string()).expect("a file");
     let merge = ["merge", "counts", "--out", "all.ply"];
     fails_with(&merge, folder.path(), "counts are merged without --out");
+    for piece in ["-", "packed"] {
+        std::fs::write(folder.path().join("packed"), b"\x1f\x8b\x08\0").expect("a file");
+        let expected = match piece {
+            "-" => "-: expected the names of files; merge does not read standard input",
+            _ => "packed: expected a PLY list of render, found a gzip archive",
+        };
+        fails_with(&["merge", piece], folder.path(), expected);
+        fails_with(&["merge", piece, "--out", "all.ply"], folder.path(), expected);
+    }
     assert!(!folder.path().join("all.ply").exists());
 }
 

@@ -13,6 +13,7 @@ use super::observation::observe;
 use super::picture::judge_picture;
 use super::policy::Policy;
 use super::recognized::scored_as;
+use super::text::printable;
 use super::unjudged::{no_photons, not_readable, too_few, without_bounces};
 pub use super::unjudged::{remark, unreadable};
 use super::verdict::{Finding, Grade, Verdict, Weight};
@@ -152,8 +153,8 @@ pub fn grade_at_most(
 
 /// Whether something of a photon map is recognizable in what was `graded`.
 fn is_recognizable(graded: &Graded) -> bool {
-    let mut faults = graded.grade.findings.iter().filter(|finding| finding.is_fault());
-    faults.all(|fault| fault.check != RECOGNIZED)
+    let verdict = graded.grade.verdict;
+    scored_as(verdict, &graded.grade.findings) == verdict
 }
 
 /// The grade of a submission of which a file could not be read because of `error`.

@@ -233,17 +233,19 @@ fn continued_lines_are_one() {
 #[test]
 fn line_ends_and_encodings() {
     let utf16 = |text: &str, big: bool| -> Vec<u8> {
-        let units = "\u{feff}".encode_utf16().chain(text.encode_utf16());
         let bytes = |unit: u16| if big { unit.to_be_bytes() } else { unit.to_le_bytes() };
-        units.collect::<Vec<_>>().into_iter().flat_map(bytes).collect()
+        text.encode_utf16().flat_map(bytes).collect()
     };
+    let marked = format!("\u{feff}{BASE}");
     let with_cr = BASE.replace('\n', "\r");
     for (what, text) in [
         ("CR", with_cr.into_bytes()),
         ("CR LF", BASE.replace('\n', "\r\n").into_bytes()),
         ("byte order mark", format!("\u{feff}{BASE}").into_bytes()),
-        ("UTF-16", utf16(BASE, false)),
-        ("UTF-16, big-endian", utf16(BASE, true)),
+        ("UTF-16", utf16(&marked, false)),
+        ("UTF-16, big-endian", utf16(&marked, true)),
+        ("UTF-16 without a mark", utf16(BASE, false)),
+        ("UTF-16 without a mark, big-endian", utf16(BASE, true)),
         ("Latin-1", [b"# \xe4\xf6\xfc\n", BASE.as_bytes()].concat()),
     ] {
         let folder = tempfile::tempdir().unwrap();
@@ -303,6 +305,33 @@ fn what_carries_geometry_is_read_refused_or_told() {
     let notes = parse_with(BASE, &textured).unwrap().notes;
     assert_eq!(notes.len(), 1);
     assert!(notes[0].starts_with("base.mtl:5: ") && notes[0].contains("'dark'"), "{notes:?}");
+}
+
+#[test]
+fn faces_that_are_not_flat_are_refused_with_the_line() {
+    let bent = |corners: usize, height: f64, scale: f64| {
+        let corner = |at: usize| {
+            let angle = 0.3 + std::f64::consts::TAU * at as f64 / corners as f64;
+            let height = if at == 1 { height } else { 0.0 };
+            // In a plane that is no axis' own.
+            let [x, y, z] =
+                [angle.cos(), 0.4 * angle.cos() + height, angle.sin()].map(|x| scale * x);
+            format!("v {x:.6} {y:.6} {z:.6}\n")
+        };
+        let vertices: String = (0..corners).map(corner).collect();
+        let face: String = (1..=corners).map(|at| format!(" {at}")).collect();
+        parse(&format!("mtllib m\n{vertices}usemtl dark\nf{face}\n"))
+    };
+    for corners in [4, 5, 12] {
+        for scale in [0.01, 1.0, 1000.0] {
+            assert!(bent(corners, 0.0, scale).is_ok(), "rounding is not a bend");
+            for height in [0.3, 0.01, -0.01] {
+                let error = bent(corners, height, scale).unwrap_err();
+                assert!(error.starts_with(&format!("model:{}: ", corners + 3)), "{error}");
+                assert!(error.contains("expected a flat face"), "{error}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -387,6 +416,9 @@ fn names_of_material_libraries() {
     ] {
         assert_as_base(with_libraries(mtllib, &libraries), mtllib);
     }
+    let two = with_libraries("mtllib b.mtl a.mtl", &[("a.mtl", bright), ("b.mtl", dark)]).unwrap();
+    let names: Vec<_> = two.libraries.iter().filter_map(|path| path.file_name()).collect();
+    assert_eq!(names, ["b.mtl", "a.mtl"]);
 }
 
 #[test]

@@ -9,8 +9,9 @@ use std::path::Path;
 
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
-use super::dialect::{Dialect, Naming, commented, with_point};
+use super::dialect::{Dialect, commented};
 use super::error::{At, ListError};
+use super::naming::Naming;
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
 
@@ -60,6 +61,7 @@ pub(super) fn start(
             comments += comment.len();
             if comments <= MOST_IN_COMMENTS {
                 let dialect = Dialect::of(comment.trim()).ok();
+                refuse_other_unit(path, number, dialect.as_ref())?;
                 of_comment = dialect.filter(|dialect| dialect.has_header).or(of_comment);
             }
         } else if let (None, Ok(rows)) = (count, row.parse()) {
@@ -70,6 +72,7 @@ pub(super) fn start(
                 (_, Some(dialect)) | (Ok(dialect), None) => (dialect, Some((number, line))),
                 (Err(message), None) => return Err(ListError::in_line(path, number, message)),
             };
+            refuse_other_unit(path, number, Some(&dialect))?;
             return Ok(TextStart { dialect, first, count });
         }
         next = lines.next()?.map(|(number, line)| (number, line.into_owned()));
@@ -79,6 +82,14 @@ pub(super) fn start(
         false => ListError::malformed(path, "expected a photon list, found only comments"),
     })?;
     Ok(TextStart { dialect, first: None, count })
+}
+
+/// Refuses the names in line `number` where they say that positions are not in meters.
+fn refuse_other_unit(path: &Path, number: u64, dialect: Option<&Dialect>) -> Result<(), ListError> {
+    match dialect.and_then(|dialect| dialect.naming.other_unit.clone()) {
+        None => Ok(()),
+        Some(reason) => Err(ListError::in_line(path, number, reason)),
+    }
 }
 
 /// Whether `line` tells Excel what is between values.
@@ -97,10 +108,13 @@ pub(super) fn read(
     let TextStart { mut dialect, first, mut count } = start;
     let mut records = 0;
     let mut number_of_row: Option<Option<u64>> = None;
-    let mut empty = None;
+    let mut empty = 0_u64;
+    let mut first_empty = None;
+    let mut doubtful = None;
     let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
-        let line = line.trim();
-        if line.is_empty() || commented(line).is_some() {
+        let (whole, line) = (line, line.trim());
+        let is_empty_row = line.is_empty() && dialect.is_empty_row(whole);
+        if (line.is_empty() && !is_empty_row) || commented(line).is_some() {
             return Ok(true);
         }
         if let (0, None, Ok(rows)) = (records, count, line.parse()) {
@@ -108,14 +122,21 @@ pub(super) fn read(
             return Ok(true);
         }
         let next = number_of_row.get_or_insert_with(|| {
-            dialect.has_number(line).then(|| u64::from(line.trim_matches('"').starts_with('1')))
+            let has_number = dialect.has_number(line);
+            doubtful = (has_number && dialect.is_doubtful_number(line)).then_some(number);
+            has_number.then(|| u64::from(line.trim_matches('"').starts_with('1')))
         });
-        let Some(record) = record(path, line, (number, *next), &dialect, rows)? else {
-            empty = empty.or(Some(number));
+        let record = match is_empty_row {
+            true => None,
+            false => record(path, line, (number, *next), &dialect, rows)?,
+        };
+        let Some(record) = record else {
+            empty += 1;
+            first_empty = first_empty.or(Some(number));
             return Ok(true);
         };
         // pandas writes nothing for NaN; spreadsheets write empty rows, but at the end.
-        if let Some(line) = empty {
+        if let Some(line) = first_empty {
             return Err(ListError::in_line(
                 path,
                 line,
@@ -134,10 +155,17 @@ pub(super) fn read(
         let Some((number, line)) = lines.next()? else { break };
         wants_more = row(number, &line)?;
     }
+    let expected = dialect.naming.places.len();
+    if let (Some(line), 1) = (doubtful, records) {
+        return Err(other_number(path, line, expected, expected + 1));
+    }
     if let Some(Some(_)) = number_of_row {
-        let note = "the first value of each row is taken for its number".to_owned();
-        let notes = dialect.naming.note.into_iter().chain([note]);
-        dialect.naming.note = Some(notes.collect::<Vec<_>>().join("; "));
+        dialect.naming.tell("the first value of each row is taken for its number".to_owned());
+    }
+    if let Some(line) = first_empty {
+        let rows = if empty == 1 { "row" } else { "rows" };
+        let note = format!("{empty} {rows} of only empty values, from line {line} on");
+        dialect.naming.tell(note);
     }
     match count {
         Some((expected, line)) if wants_more && expected != records => {
@@ -146,6 +174,10 @@ pub(super) fn read(
         }
         _ => Ok(dialect.naming),
     }
+}
+
+fn other_number(path: &Path, line: u64, expected: usize, found: usize) -> ListError {
+    ListError::in_line(path, line, format!("expected {expected} values, found {found}"))
 }
 
 /// The record in `row`, which is line `number` and starts with its own `number_of_row` if there is
@@ -162,21 +194,23 @@ fn record(
     if let Some(expected) = number_of_row
         && cells.next().and_then(|cell| cell.parse().ok()) != Some(expected)
     {
-        let message = format!("expected {expected}, the number of the row, as its first value");
+        let names = dialect.naming.places.len();
+        let message = format!(
+            "expected {expected}, the number of the row, as the first of {} values: the header \
+             has {names} names",
+            names + 1
+        );
         return Err(ListError::in_line(path, number, message));
     }
     let places = &dialect.naming.places;
-    let other_number = |found: usize| {
-        let message = format!("expected {} values, found {found}", places.len());
-        ListError::in_line(path, number, message)
-    };
+    let other_number = |found: usize| other_number(path, number, places.len(), found);
     for (seen, place) in places.iter().enumerate() {
         let text = cells.next().ok_or_else(|| other_number(seen))?;
         let Some(place) = *place else { continue };
         if text.is_empty() && dialect.cells(row).all(str::is_empty) {
             return Ok(None);
         }
-        rows.set(&mut record, place, Value::Text(&with_point(text)), At::Line(number))?;
+        rows.set(&mut record, place, Value::Cell(text), At::Line(number))?;
     }
     // A separator at the end of a row is not followed by a value.
     match cells.enumerate().filter(|(_, text)| !text.is_empty()).last() {

@@ -1,43 +1,12 @@
-//! What the columns of somebody's list are called, and what is between them.
-
-use std::borrow::Cow;
+//! What is between the values of somebody's list, and whether names precede them.
 
 use photon_mapping::photon_list::COLUMNS;
 
-use super::error::start;
-use super::record::{Columns, Value};
-
-/// How other programs name the vectors of a photon: in front of a coordinate or a channel.
-const VECTORS: [(&[&str], [&str; 3]); 3] = [
-    (
-        &["position", "pos", "points", "point", "coords", "coord", "location", "vertex", "p"],
-        ["x", "y", "z"],
-    ),
-    (&["intensity"], ["r", "g", "b"]),
-    (&["tolight", "tolightray", "tolightraydirection"], ["x", "y", "z"]),
-];
-
-/// No name of a column is longer.
-const LONGEST_NAME: usize = 64;
+use super::naming::Naming;
+use super::record::Value;
 
 /// How comments start, which may hold the names of the columns: NumPy, CloudCompare, MATLAB.
 const COMMENTS: [&str; 3] = ["#", "//", "%"];
-
-/// Columns that viewers of points add, which say nothing of photons.
-const OF_VIEWERS: [&str; 8] = ["nx", "ny", "nz", "red", "green", "blue", "alpha", "quality"];
-/// No more unknown columns are told.
-const MOST_TOLD: usize = 8;
-
-/// Which column each of a file's is.
-#[derive(Debug)]
-pub(super) struct Naming {
-    /// Which columns there are.
-    pub columns: Columns,
-    /// For each of the file's columns, its place in [`COLUMNS`].
-    pub places: Vec<Option<usize>>,
-    /// What had to be guessed.
-    pub note: Option<String>,
-}
 
 /// How a list in text is written.
 #[derive(Debug)]
@@ -48,93 +17,6 @@ pub(super) struct Dialect {
     pub naming: Naming,
     /// Whether the first line names the columns.
     pub has_header: bool,
-}
-
-impl Naming {
-    /// Which columns a file has whose own are called `names`: by our names, else by the same ones
-    /// in capitals, else by those of other programs. `Err` says what is missing or double.
-    pub fn of(names: &[&str]) -> Result<Self, String> {
-        // The columns that could be each of ours, and how well they are called so.
-        let mut best: [(u8, Vec<usize>); COLUMNS.len()] = Default::default();
-        for (at, name) in names.iter().enumerate() {
-            let Some((place, level)) = place(name) else { continue };
-            let (of_best, columns) = &mut best[place];
-            if columns.is_empty() || level < *of_best {
-                (*of_best, *columns) = (level, vec![at]);
-            } else if level == *of_best {
-                columns.push(at);
-            }
-        }
-        let mut places = vec![None; names.len()];
-        let mut guessed = Vec::new();
-        for (place, (column, (level, found))) in COLUMNS.iter().zip(best).enumerate() {
-            match found.as_slice() {
-                [] if place < 3 => {
-                    return Err(format!("expected the columns x, y and z, found no '{column}'"));
-                }
-                [] => {}
-                [at] => {
-                    places[*at] = Some(place);
-                    if level > 0 {
-                        guessed.push(format!("'{}' for {column}", start(names[*at])));
-                    }
-                }
-                _ => return Err(format!("expected each column once, found '{column}' twice")),
-            }
-        }
-        let unknown: Vec<String> = names
-            .iter()
-            .zip(&places)
-            .filter(|(name, place)| place.is_none() && !OF_VIEWERS.contains(name))
-            .map(|(name, _)| format!("'{}'", start(name)))
-            .take(MOST_TOLD)
-            .collect();
-        let notes: Vec<String> = [("taken", guessed), ("unknown, so not judged", unknown)]
-            .into_iter()
-            .filter(|(_, names)| !names.is_empty())
-            .map(|(what, names)| format!("{what}: {}", names.join(", ")))
-            .collect();
-        let note = (!notes.is_empty()).then(|| notes.join("; "));
-        Ok(Self { columns: Columns::at(&places), places, note })
-    }
-}
-
-/// The place in [`COLUMNS`] of the column `name`; the second number is lower, the better it fits.
-fn place(name: &str) -> Option<(usize, u8)> {
-    if name.len() > LONGEST_NAME {
-        return None;
-    }
-    if let Some(place) = COLUMNS.iter().position(|column| name == *column) {
-        return Some((place, 0));
-    }
-    let name = without_unit(name);
-    let same = COLUMNS.iter().position(|column| name.eq_ignore_ascii_case(column));
-    same.map(|place| (place, 1)).or_else(|| Some((of_a_vector(name)?, 2)))
-}
-
-/// `x` for `x (m)` and `x [mm]`; what has an index in its brackets keeps them.
-fn without_unit(name: &str) -> &str {
-    let unit = name.strip_suffix([')', ']']).and_then(|name| name.rsplit_once(['(', '[']));
-    let is_index = |unit: &str| matches!(unit, "x" | "y" | "z" | "r" | "g" | "b" | "0" | "1" | "2");
-    match unit {
-        Some((name, unit)) if !is_index(&unit.to_ascii_lowercase()) => name.trim_end(),
-        _ => name,
-    }
-}
-
-/// The place in [`COLUMNS`] of what `position.x`, `intensity[0]` or `toLightRay.direction.z` names.
-fn of_a_vector(name: &str) -> Option<usize> {
-    let name = name.to_ascii_lowercase();
-    let name: String =
-        name.trim_start_matches("photon").chars().filter(|c| !":._[]()- ".contains(*c)).collect();
-    VECTORS.iter().enumerate().find_map(|(vector, (stems, letters))| {
-        let mut stems = stems.iter();
-        let rest = stems.find_map(|stem| name.strip_prefix(stem).filter(|rest| rest.len() == 1))?;
-        let axis = [letters.as_slice(), &["x", "y", "z"], &["0", "1", "2"]]
-            .iter()
-            .find_map(|letters| letters.iter().position(|letter| *letter == rest))?;
-        Some(3 * vector + axis)
-    })
 }
 
 /// `line` without what starts a comment, if it is one.
@@ -170,7 +52,7 @@ impl Dialect {
         while first.last().is_some_and(|name| name.is_empty()) {
             first.pop();
         }
-        let is_number = |text: &&str| Value::Text(&with_point(text)).float().is_some();
+        let is_number = |text: &&str| Value::Cell(text).float().is_some();
         let has_header = !first.iter().all(is_number);
         let mut naming = match first.len() {
             _ if has_header => Naming::of(&first)?,
@@ -199,27 +81,28 @@ impl Dialect {
 
     /// Whether `row` has one value more than the header names, as R writes tables: its number.
     pub fn has_number(&self, row: &str) -> bool {
-        let is_white = self.separator.is_none_or(char::is_whitespace);
         let values: Vec<&str> = self.cells(row).take(self.naming.places.len() + 2).collect();
         self.has_header
-            && is_white
             && values.len() == self.naming.places.len() + 1
             && values.last().is_some_and(|last| !last.is_empty())
             && matches!(values[0], "0" | "1")
     }
 
+    /// Whether the number of `row` may be a value as well, if there is no other row: between commas
+    /// and without quotes.
+    pub fn is_doubtful_number(&self, row: &str) -> bool {
+        self.separator.is_some_and(|letter| !letter.is_whitespace()) && !row.starts_with('"')
+    }
+
+    /// Whether `line`, which is white space, has the separators of a row.
+    pub fn is_empty_row(&self, line: &str) -> bool {
+        self.separator
+            .is_some_and(|letter| line.matches(letter).count() >= self.naming.places.len() - 1)
+    }
+
     /// The values of `row`.
     pub fn cells<'row>(&self, row: &'row str) -> impl Iterator<Item = &'row str> {
         cells(row, self.separator)
-    }
-}
-
-/// `text` with a decimal point, where it may have a decimal comma: between commas only what is
-/// quoted has one.
-pub(super) fn with_point(text: &str) -> Cow<'_, str> {
-    match text.contains(',') {
-        false => Cow::Borrowed(text),
-        true => Cow::Owned(text.replacen(',', ".", 1)),
     }
 }
 
@@ -253,6 +136,9 @@ fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
             }
         };
         rest = after;
-        Some(cell.trim().trim_matches('"'))
+        let cell = cell.trim();
+        // Quotes alone are a value, but for the pair around nothing.
+        let is_quotes = cell != "\"\"" && !cell.is_empty() && cell.bytes().all(|byte| byte == b'"');
+        Some(if is_quotes { cell } else { cell.trim_matches('"') })
     })
 }

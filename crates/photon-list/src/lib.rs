@@ -5,6 +5,7 @@
 mod csv;
 mod dialect;
 pub mod error;
+mod naming;
 pub mod ply;
 pub mod reader;
 pub mod record;

@@ -8,8 +8,8 @@ use glam::Vec3;
 use photon_mapping::photon_list::{COLUMNS, PhotonRecord};
 
 use super::csv::{self, TextStart};
-use super::dialect::Naming;
 use super::error::{ListError, Reason};
+use super::naming::Naming;
 use super::ply::{self, Header};
 use super::record::{Columns, Rows};
 use super::text::{Lines, decoded};
@@ -60,7 +60,7 @@ pub enum Look {
 /// When the file cannot be read or is not a list.
 pub fn load(path: &Path) -> Result<PhotonList, ListError> {
     let mut records = Vec::new();
-    let columns = read(path, |record| records.push(record))?;
+    let (columns, _) = read(path, |record| records.push(record))?;
     Ok(PhotonList { columns, records })
 }
 
@@ -135,18 +135,22 @@ pub fn look(path: &Path) -> io::Result<Look> {
     })
 }
 
-/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record;
-/// `-` is standard input. It may have any of the columns of [`COLUMNS`], in any order, if x, y and
+/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record.
+/// Gives the columns, and what had to be guessed or is passed over. `-` is standard input. It may have any of the columns of [`COLUMNS`], in any order, if x, y and
 /// z are among them; other columns are passed over.
 ///
 /// # Errors
 /// When the file cannot be read or is not a list.
-pub fn read(path: &Path, mut on_record: impl FnMut(PhotonRecord)) -> Result<Columns, ListError> {
+pub fn read(
+    path: &Path,
+    mut on_record: impl FnMut(PhotonRecord),
+) -> Result<(Columns, Option<String>), ListError> {
     let mut rows = Rows::new(path, true, |record| {
         on_record(record);
         Ok(true)
     });
-    Ok(read_rows(open(path, u64::MAX)?, &mut rows)?.columns)
+    let naming = read_rows(open(path, u64::MAX)?, &mut rows)?;
+    Ok((naming.columns, naming.note))
 }
 
 fn read_rows(

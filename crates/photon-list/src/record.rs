@@ -43,6 +43,8 @@ fn set(record: &mut PhotonRecord, column: usize, value: Value<'_>) -> Option<()>
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Value<'a> {
     Text(&'a str),
+    /// Text between separators: that of a float may have a decimal comma.
+    Cell(&'a str),
     Float(f32),
     Double(f64),
     Whole(i64),
@@ -52,6 +54,10 @@ impl Value<'_> {
     pub(super) fn float(self) -> Option<f32> {
         match self {
             Self::Text(text) => text.parse().ok().or_else(|| not_finite(text)),
+            Self::Cell(text) if text.contains(',') => {
+                Value::Text(&text.replacen(',', ".", 1)).float()
+            }
+            Self::Cell(text) => Self::Text(text).float(),
             Self::Float(float) => Some(float),
             Self::Double(double) => Some(double as f32),
             Self::Whole(whole) => Some(whole as f32),
@@ -64,7 +70,8 @@ impl Value<'_> {
             (whole as f64 == double).then_some(whole)
         };
         match self {
-            Self::Text(text) => {
+            // A comma in a whole number is between its thousands.
+            Self::Text(text) | Self::Cell(text) => {
                 text.parse().ok().or_else(|| from_double(text.parse::<f64>().ok()?))
             }
             Self::Float(float) => from_double(f64::from(float)),
@@ -117,7 +124,7 @@ impl<'path, OnRecord: FnMut(PhotonRecord) -> Result<bool, ListError>> Rows<'path
         let name = COLUMNS[column];
         let kind = if column < FIRST_WHOLE { "a number" } else { WHOLE[column - FIRST_WHOLE] };
         let found = match value {
-            Value::Text(text) => start(text),
+            Value::Text(text) | Value::Cell(text) => start(text),
             Value::Float(float) => float.to_string(),
             Value::Double(double) => double.to_string(),
             Value::Whole(whole) => whole.to_string(),

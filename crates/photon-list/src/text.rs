@@ -82,7 +82,8 @@ impl<'path, Input: BufRead> Lines<'path, Input> {
                 }
             }
             if self.line.len() > LONGEST_LINE {
-                let message = format!("expected at most {LONGEST_LINE} bytes in a line");
+                let message =
+                    format!("expected at most {LONGEST_LINE} bytes in a line, found more");
                 return Err(ListError::in_line(self.path, self.number + 1, message));
             }
         }

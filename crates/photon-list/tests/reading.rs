@@ -106,6 +106,12 @@ fn dialects_of_text() {
         ("CloudCompare, counted", format!("//X Y Z\n{ROWS}\n{}", rows(" "))),
         ("points of Leica", format!("{ROWS}\n{}", rows(" "))),
         ("R", format!("\"x\" \"y\" \"z\"\n{}", numbered(1, "\"", " "))),
+        ("R, commas", format!("\"x\",\"y\",\"z\"\n{}", numbered(1, "\"", ","))),
+        (
+            "R, semicolons",
+            format!("\"x\";\"y\";\"z\"\n{}", numbered(1, "\"", ";").replace('.', ",")),
+        ),
+        ("R, commas without quotes", format!("x,y,z\n{}", numbered(1, "", ","))),
         ("R, tabs", format!("x\ty\tz\n{}", numbered(1, "", "\t"))),
         ("pandas, printed", format!("   x   y  z\n{}", numbered(0, "", "  "))),
         ("NumPy", format!("# x y z\n{}", rows(" "))),
@@ -113,7 +119,7 @@ fn dialects_of_text() {
         ("comments of two kinds", format!("# x y z\n# of a run\n{}", rows(" "))),
         ("names twice", format!("# x, y, z\n{}", csv())),
         ("units", header("x (m),y (m),z (m)")),
-        ("units in brackets", header("X [mm],Y [mm],Z [mm]")),
+        ("units in brackets", header("X [m],Y [Meters],Z [world units]")),
         ("indices", header("position[0],position[1],position[2]")),
         ("one comment at the end", csv() + "# 5001 photons\n"),
         ("comments between", csv().replacen('\n', "\n# one\n// two\n", 2)),
@@ -272,7 +278,13 @@ fn what_is_no_list_is_refused_with_the_line() {
         ("x;y;z\n1;2;3\n#ZAHL!;2;3\n", ["line 3", "found '#ZAHL!'"]),
         ("x,y,z\n1,2,3\n#N/A,2,3\n", ["line 3", "found '#N/A'"]),
         ("x,y,z\n1,2,3\n,,\n,,\n1,2,3\n", ["line 3", "only empty values"]),
+        ("x\ty\tz\n1\t2\t3\n\t\t\n1\t2\t3\n", ["line 3", "only empty values"]),
+        ("x,y,z\n1,2,3,4\n5,6,7,8\n", ["line 3", "expected 2, the number of the row"]),
         ("x,y,z\n1,2,3,,5\n", ["line 2", "expected 3 values, found 5"]),
+        ("x,y,z\n1,2,3\n\"\"\"\",\"\"\"\",\"\"\"\"\n", ["line 3", "found '\"\"\"\"'"]),
+        ("x y z\n0.5,0.25,0.125\n", ["line 2", "found '0.5,0.25,0.125'"]),
+        ("x,y,z\n\"1,234,567\",2,3\n", ["'x'", "found '1,234,567'"]),
+        ("\"x\",\"y\",\"z\"\n\"1\",1,2,3\n\"3\",1,2,3\n", ["line 3", "expected 2"]),
         ("x,y,z\n1,2,3 # last\n", ["line 2", "found '3 # last'"]),
         ("x,y,z\r1,2,3\r1,b,3\r", ["line 3", "found 'b'"]),
         ("x,y,z\n5001 photons stored\n", ["line 2", "expected"]),
@@ -290,6 +302,20 @@ fn what_is_no_list_is_refused_with_the_line() {
             "ply\nformat ascii 1.0\nelement vertex 1\nproperty list float int i\n",
             ["line 4", "whole"],
         ),
+        (
+            "ply\nformat ascii 1.0\nformat binary_little_endian 1.0\n",
+            ["line 3", "found 'format binary_little_endian 1.0'"],
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x[mm]\nproperty float y\n\
+             property float z\nend_header\n1 2 3\n",
+            ["in meters", "found 'mm'"],
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+             property float z\nproperty list char int k\nend_header\n1 2 3 -1\n",
+            ["line 9", "the length of the list 'k', found '-1'"],
+        ),
         ("ply\nformat ascii 1.0\nelement vertex many\n", ["line 3", "'many'"]),
         ("ply\nformat ascii 1.0\n", ["line 2", "end_header"]),
     ] {
@@ -298,7 +324,30 @@ fn what_is_no_list_is_refused_with_the_line() {
     for wrong in ["1 2", "1 2 3 4", "1 b 3"] {
         assert_refused(format!("{}{wrong}\n", ply_header("ascii", 1)), &["line 8", "expected"]);
     }
-    assert_refused("x".repeat(70_000), &["line 1", "65536 bytes"]);
+    assert_refused("x".repeat(70_000), &["line 1", "65536 bytes in a line, found more"]);
+    let header = "element vertex 1\nproperty list char uchar k\nproperty float x\n\
+                  property float y\nproperty float z\nend_header\n";
+    let mut bytes = format!("ply\nformat binary_little_endian 1.0\n{header}").into_bytes();
+    bytes.extend([0xff; 13]);
+    assert_refused(bytes, &["row 1", "the length of the list 'k', found '-1'"]);
+}
+
+#[test]
+fn positions_in_other_units_than_meters_are_refused() {
+    for unit in ["mm", "cm", "km", "in", "ft", "deg", "%", "Pa", "MM", "normalized", "m/s"] {
+        let found = format!("found '{unit}'");
+        for names in [
+            format!("x ({unit}),y ({unit}),z ({unit})"),
+            format!("x (m),y (m),z [{unit}]"),
+            format!("Points:0 [{unit}],Points:1 [{unit}],Points:2 [{unit}]"),
+        ] {
+            assert_refused(format!("{names}\n{}", rows(",")), &["line 1", "in meters", &found]);
+        }
+        let commented = format!("run 1\nx[{unit}] y[{unit}] z[{unit}]\n");
+        let commented = commented.lines().map(|line| format!("# {line}\n")).collect::<String>();
+        assert_refused(commented.clone() + &rows(" "), &["line 2", "in meters", &found]);
+        assert_refused(commented + &csv(), &["line 2", "in meters", &found]);
+    }
 }
 
 #[test]
@@ -306,6 +355,8 @@ fn optional_columns_that_cannot_be_used_are_left_out_by_grade_alone() {
     let surfaces = format!("x,y,z,surface,bounce\n{}", rows(",").replace('\n', ",shortBox,2\n"));
     let photons = format!("x,y,z,photon\n{}", rows(",").replace('\n', ",-1\n"));
     let last = format!("x,y,z,bounce\n{}", rows(",").replace('\n', ",1\n")) + "0,0,0,70000\n";
+    let thousands = "x,y,z,photon\n1,2,3,\"1,007\"\n".to_owned();
+    let semicolons = "x;y;z;bounce\n1;2;3;1,000\n".to_owned();
     let vector = "x,y,z,intensity_r,intensity_g,intensity_b\n1,2,3,1,1,none\n".to_owned();
     let of_ply = ply()
         .replacen("property float x", "property int photon\nproperty float x", 1)
@@ -316,6 +367,8 @@ fn optional_columns_that_cannot_be_used_are_left_out_by_grade_alone() {
         (surfaces, "surface", "line 2", "'shortBox'"),
         (photons, "photon", "line 2", "'-1'"),
         (last, "bounce", "line 32", "'70000'"),
+        (thousands, "photon", "line 2", "'1,007'"),
+        (semicolons, "bounce", "line 2", "'1,000'"),
         (vector, "intensity_b", "line 2", "'none'"),
     ] {
         let (strict, lenient) = read(&text);
@@ -437,4 +490,33 @@ fn columns_of_other_names_are_reported() {
     };
     assert_eq!(notes_of("x,y,z,dx,r", ",1,2"), "unknown, so not judged: 'dx', 'r'");
     assert_eq!(notes_of("x,y,z,bounce,nx,red", ",1,0,9"), "");
+    assert_eq!(notes_of(",x,y,z", ",0"), "unknown, so not judged: one without a name");
+    assert_eq!(
+        notes_of("x,y,z,intensity_r,to_light_x,to_light_y", ",1,0,9"),
+        "without the other two of their three, so not judged: 'intensity_r', 'to_light_x', \
+         'to_light_y'"
+    );
+}
+
+/// The remarks on `contents`, which are a list.
+fn notes(contents: impl AsRef<[u8]>) -> String {
+    read(contents).1.expect("it is a list").1.guessed.unwrap_or_default()
+}
+
+#[test]
+fn what_is_passed_over_is_reported() {
+    assert_eq!(notes(csv()), "");
+    assert_eq!(notes(csv() + ",,\n"), "1 row of only empty values, from line 32 on");
+    let tabs = csv().replace(',', "\t");
+    let remark = "tabs between values; 1 row of only empty values, from line 33 on";
+    assert_eq!(notes(tabs + " \n\t\t\n"), remark);
+    let many = csv() + &",,\n\"\",\"\",\"\"\n".repeat(20_000);
+    assert_eq!(notes(many), "40000 rows of only empty values, from line 32 on");
+    let more = "element photon 1\nproperty float x\nelement face 1\nproperty int i\nend_h";
+    let other = ply().replacen("end_h", more, 1) + "0.5\n7\n";
+    assert_eq!(notes(other), "elements other than 'vertex', so not judged: 'photon' (1 rows)");
+    let listed = ply()
+        .replacen("property float y", "property list uchar int y_of\nproperty float y", 1)
+        .replace(" -0.25", " 0 -0.25");
+    assert_eq!(notes(listed), "unknown, so not judged: 'list y_of'");
 }

@@ -8,9 +8,17 @@ use glam::DVec3;
 
 use super::Flaw;
 
-/// The text in `bytes`: UTF-8, or UTF-16 behind a byte order mark, or else Windows-1252, in which
-/// any two names that differ stay different.
+/// The text in `bytes`, in the encodings that photon lists may have: UTF-16 with or without a byte
+/// order mark, UTF-8, or else Windows-1252, in which any two names that differ stay different.
 pub fn decode(bytes: Vec<u8>) -> String {
+    let utf16 = match bytes.as_slice() {
+        [1..=255, 0, 1..=255, 0, ..] => Some(encoding_rs::UTF_16LE),
+        [0, 1..=255, 0, 1..=255, ..] => Some(encoding_rs::UTF_16BE),
+        _ => None,
+    };
+    if let Some(encoding) = utf16 {
+        return encoding.decode_without_bom_handling(&bytes).0.into_owned();
+    }
     if let Some((encoding, mark)) = encoding_rs::Encoding::for_bom(&bytes) {
         return encoding.decode_without_bom_handling(&bytes[mark..]).0.into_owned();
     }

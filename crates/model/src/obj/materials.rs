@@ -27,6 +27,8 @@ pub struct Definition {
 /// The materials of all libraries read so far.
 #[derive(Default)]
 pub struct Materials {
+    /// The files.
+    pub libraries: Vec<PathBuf>,
     by_name: HashMap<String, Definition>,
     /// The names that end in what may be a comment, by what stands before it.
     commented: HashMap<String, Vec<String>>,
@@ -39,6 +41,7 @@ impl Materials {
     /// # Errors
     /// When a response is no material's.
     pub fn read(&mut self, path: &Path, text: &str) -> Result<(), Flaw> {
+        self.libraries.push(path.to_owned());
         let mut place = ObjPlace::new(path);
         let mut current = String::new();
         let starts = |word: &str| matches!(word, "newmtl" | "Ka" | "Kd" | "Ks" | "illum");

@@ -35,6 +35,8 @@ pub struct Model {
     pub triangles: Vec<ModelTriangle>,
     /// What was left out, a line each, with file and line.
     pub notes: Vec<String>,
+    /// The material libraries that were read.
+    pub libraries: Vec<PathBuf>,
 }
 
 /// A triangle as the model file has it, in world space.

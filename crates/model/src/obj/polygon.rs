@@ -8,6 +8,12 @@ const STRAIGHT: f64 = 1e-6;
 /// The part of its area by which a polygon's triangles may differ from it in rounding.
 const SAME_AREA: f64 = 1e-6;
 
+/// Exporters round to six decimals, or to six digits.
+const SIX_DECIMALS: f64 = 1e-6;
+const SIX_DIGITS: f64 = 1e-5;
+/// This part of the size of a face bends it by less than photons show.
+const BEND: f64 = 1e-4;
+
 /// The time for a concave polygon grows with the square of its corners.
 pub const MOST_CORNERS: usize = 10_000;
 
@@ -41,6 +47,23 @@ pub fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let filled: f64 = triangles.iter().map(of_flat).sum();
     let is_filled = (filled - whole).abs() <= SAME_AREA * whole;
     is_filled.then(|| triangles.to_vec())
+}
+
+/// How far the farthest of `corners` is from the plane that fits them, if rounding does not explain
+/// that.
+pub fn off_plane(corners: &[DVec3]) -> Option<f64> {
+    let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    let from_middle = |at: usize| corners[at % corners.len()] - middle;
+    let normal: DVec3 =
+        (0..corners.len()).map(|at| from_middle(at).cross(from_middle(at + 1))).sum();
+    let normal = normal.try_normalize()?;
+    let (mut off, mut size, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for corner in corners {
+        off = off.max(normal.dot(corner - middle).abs());
+        size = size.max(corner.distance(middle));
+        largest = largest.max(corner.abs().max_element());
+    }
+    (off > SIX_DECIMALS + SIX_DIGITS * largest + BEND * size).then_some(off)
 }
 
 /// `corners` seen from the side to which `normal` points, along the axis it is closest to.

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use super::keywords::{REFUSED, THIN, WITHOUT_AREA, normal, starts, vertex};
 use super::lines::{ObjLine, ObjPlace, lines};
 use super::materials::{Materials, read_libraries};
-use super::polygon::{MOST_CORNERS, triangulate};
+use super::polygon::{MOST_CORNERS, off_plane, triangulate};
 use super::{Flaw, Model, ModelError, ModelTriangle};
 use photon_mapping::scene::{Material, MeshObject};
 
@@ -144,6 +144,10 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> ObjReader<Libra
             );
             return Err(self.place.flaw(message).into());
         };
+        if let Some(off) = off_plane(&positions) {
+            let message = format!("expected a flat face, found a corner {off:.6} off its plane");
+            return Err(self.place.flaw(message).into());
+        }
         for triangle in triangles {
             let vertices = triangle.map(|corner| positions[corner]);
             let [a, b, c] = vertices;
@@ -267,6 +271,7 @@ impl<Library: Fn(&str) -> Result<(PathBuf, String), ModelError>> ObjReader<Libra
             };
             self.model.notes.push(self.place.flaw(message).to_string());
         }
+        self.model.libraries = self.materials.libraries;
         Ok(self.model)
     }
 

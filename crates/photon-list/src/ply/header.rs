@@ -10,6 +10,11 @@ use crate::text::Lines;
 /// A header has a line for each surface, of which there are 65,536 at most.
 const MOST_LINES: u64 = 100_000;
 
+/// Elements of meshes and viewers, which say nothing of photons.
+const OF_VIEWERS: [&str; 6] = ["face", "tristrips", "edge", "camera", "material", "user"];
+/// No more other elements are told.
+const MOST_TOLD: usize = 8;
+
 /// How the values behind the header are written.
 #[derive(Clone, Copy, Debug)]
 pub enum Encoding {
@@ -69,6 +74,11 @@ impl Header {
             match (keyword.as_str(), words.get(1..).unwrap_or_default()) {
                 ("comment", _) => comments.push(line["comment".len()..].trim().to_owned()),
                 ("obj_info" | "", _) => {}
+                ("format", _) if encoding.is_some() => {
+                    let found = Some(start(line));
+                    let message = "expected one line with the format".to_owned();
+                    return Err(error(Reason { message, found }));
+                }
                 ("format", [name, ..]) => {
                     encoding = Some(match name.to_ascii_lowercase().as_str() {
                         "ascii" => Encoding::Ascii,
@@ -110,6 +120,21 @@ impl Header {
         }
         let message = "expected 'end_header' before the end of the file";
         Err(ListError::in_line(path, last, message))
+    }
+
+    /// The elements besides the vertices that may hold data of photons, and how many rows they have;
+    /// `None` where there are no such elements.
+    pub fn not_read(&self) -> Option<String> {
+        let others = self.elements.iter().filter(|element| {
+            let is_known = OF_VIEWERS.contains(&element.name.as_str());
+            element.name != "vertex" && !is_known && element.count > 0
+        });
+        let told = others
+            .take(MOST_TOLD)
+            .map(|element| format!("'{}' ({} rows)", start(&element.name), element.count));
+        let told: Vec<String> = told.collect();
+        (!told.is_empty())
+            .then(|| format!("elements other than 'vertex', so not judged: {}", told.join(", ")))
     }
 
     /// Whether the vertices are the corners of faces.

@@ -11,12 +11,12 @@ use std::path::Path;
 
 use photon_mapping::photon_list::PhotonRecord;
 
-use super::dialect::Naming;
-use super::error::{At, ListError};
+use super::error::{At, ListError, Reason, start};
+use super::naming::Naming;
 use super::reader::{Input, open};
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
-use header::{Element, Encoding};
+use header::{Element, Encoding, Property};
 pub(super) use header::{Header, is_magic};
 
 /// The comments in the header of the list `path`.
@@ -39,10 +39,18 @@ pub(super) fn read(
     let path = lines.path;
     let vertex = header.elements.iter().find(|element| element.name == "vertex");
     let vertex = vertex.expect("the header has been read");
-    // A list within a row is no column of ours.
-    let names = vertex.properties.iter().map(|p| if p.count.is_none() { &p.name } else { "" });
-    let naming = Naming::of(&names.collect::<Vec<_>>());
-    let naming = naming.map_err(|message| ListError::malformed(path, message))?;
+    // A list within a row is no column of ours, whatever its name.
+    let name = |property: &Property| match property.count {
+        None => property.name.clone(),
+        Some(_) => format!("list {}", property.name),
+    };
+    let names: Vec<String> = vertex.properties.iter().map(name).collect();
+    let naming = Naming::of(&names.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut naming = naming.map_err(|message| ListError::malformed(path, message))?;
+    if let Some(reason) = naming.other_unit.take() {
+        return Err(ListError::malformed(path, reason));
+    }
+    header.not_read().into_iter().for_each(|note| naming.tell(note));
     for element in &header.elements {
         let places = (element.name == "vertex").then_some(naming.places.as_slice());
         let wants_more = match header.encoding {
@@ -115,7 +123,11 @@ fn read_ascii(
             if let Some(place) = *place {
                 rows.set(&mut record, place, Value::Text(word), At::Line(number))?;
             } else if property.count.is_some() {
-                let length: usize = word.parse().map_err(|_| missing())?;
+                let other = || {
+                    let message = format!("expected the length of the list '{}'", property.name);
+                    ListError::in_line(path, number, Reason { message, found: Some(start(word)) })
+                };
+                let length: usize = word.parse().map_err(|_| other())?;
                 if length > 0 && words.nth(length - 1).is_none() {
                     return Err(missing());
                 }
@@ -165,7 +177,12 @@ fn read_binary(
                 let Value::Whole(length) = count.value(length, big_endian) else {
                     unreachable!("the header has whole numbers alone for lengths")
                 };
-                let bytes = length.max(0) as u64 * width as u64;
+                let length = u64::try_from(length).map_err(|_| {
+                    let message = format!("expected the length of the list '{}'", property.name);
+                    let reason = Reason { message, found: Some(length.to_string()) };
+                    ListError::at(path, At::Row(number + 1), reason)
+                })?;
+                let bytes = length * width as u64;
                 let skipped = io::copy(&mut lines.input.by_ref().take(bytes), &mut io::sink());
                 if skipped.map_err(missing)? < bytes {
                     return Err(truncated(path, element, number));
