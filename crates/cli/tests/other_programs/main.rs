@@ -26,8 +26,8 @@ struct Case {
     what: String,
 }
 
-/// The program, compiled with `options` into `folder`. Without g++ nothing is tested, unless `CI` is
-/// set.
+/// The program, compiled with `options` into `folder`. Without g++ nothing is tested, unless `CI`
+/// is set.
 fn tracer(folder: &Path, options: &[&str]) -> Option<PathBuf> {
     let program = folder.join("tracer");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_programs/tracer.cpp");

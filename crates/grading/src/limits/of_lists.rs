@@ -30,8 +30,8 @@ pub(crate) mod few {
 pub(crate) mod axes {
     /// How many records are looked at.
     pub(crate) const PROBES: usize = 10_000;
-    /// In the axes they are in, [`super::super::NEARLY_ALL`] photons lie on surfaces; in others, hardly
-    /// more than half do.
+    /// In the axes they are in, [`super::super::NEARLY_ALL`] photons lie on surfaces; in others,
+    /// hardly more than half do.
     pub(crate) const HARDLY_ALL: f64 = 0.8;
 }
 

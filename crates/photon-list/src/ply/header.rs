@@ -122,8 +122,8 @@ impl Header {
         Err(ListError::in_line(path, last, message))
     }
 
-    /// The elements besides the vertices that may hold data of photons, and how many rows they have;
-    /// `None` where there are no such elements.
+    /// The elements besides the vertices that may hold data of photons, and how many rows they
+    /// have; `None` where there are no such elements.
     pub fn not_read(&self) -> Option<String> {
         let others = self.elements.iter().filter(|element| {
             let is_known = OF_VIEWERS.contains(&element.name.as_str());
