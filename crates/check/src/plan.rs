@@ -128,13 +128,17 @@ pub fn steps() -> Vec<PlanStep> {
         PlanStep::EmitCorner,
         PlanStep::EmitOnSphere,
         PlanStep::EmitZero,
-        PlanStep::AroundLight,
+        PlanStep::StoreFirst,
+        PlanStep::GrowPath,
     ];
-    steps.extend(STORAGE);
     steps.extend(SCATTERING);
     steps.push(PlanStep::Floor);
     steps.extend(wall_normals().into_iter().map(PlanStep::Wall));
-    steps.extend([PlanStep::Around, PlanStep::Whole]);
+    // Where TracePhoton alone does not work, deaths must not hide the steps above.
+    let alone = |step: &PlanStep| !matches!(step, PlanStep::StoreFirst | PlanStep::GrowPath);
+    steps.extend(STORAGE.into_iter().filter(alone));
+    // These two end by the clock, which must change no number before.
+    steps.extend([PlanStep::Whole, PlanStep::Around, PlanStep::AroundLight]);
     steps
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 
-use super::{SectionVerdict, around, turns};
+use super::{SectionVerdict, around, judge_seeds, turns};
 use crate::events::Call;
 use crate::plan::{LIGHT, PlanStep, SECOND_TRY, first_try};
 use crate::run::Observed;
@@ -111,6 +111,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     if verdict.faults.is_empty() {
         judge_scripted(observed, &mut verdict);
     }
+    judge_seeds(observed, &mut verdict);
     verdict.finish(observed, function, &steps, told)
 }
 

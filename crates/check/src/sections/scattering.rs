@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::SectionVerdict;
+use super::{SectionVerdict, judge_seeds};
 use crate::events::Call;
 use crate::plan::{COLORS, PlanStep, SCATTERING};
 use crate::run::Observed;
@@ -146,6 +146,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         }
         judge_threshold(observed, &mut verdict);
     }
+    judge_seeds(observed, &mut verdict);
     verdict.finish(observed, "TracePhoton", &SCATTERING, told)
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::SectionVerdict;
+use super::{Fault, SectionVerdict};
 use crate::events::{Call, StepLog, Trace};
 use crate::plan::{INTENSITY, PlanStep, STORAGE};
 use crate::run::Observed;
@@ -15,6 +15,16 @@ const IN_EVERY_CALL: &str =
     "Call TracePhoton for the scattered ray in every call, not only in the first.";
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
                           grow with every call of TracePhoton.";
+
+/// What the whole run can refute: which hits are stored, and how often.
+const WHICH_HITS: [&str; 6] = [
+    "direct-stored",
+    "third-hit-on",
+    "absorbed-not-stored",
+    "not-stored",
+    "stored-twice",
+    "path-does-not-grow",
+];
 
 pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdict {
     let mut verdict = SectionVerdict::new(Section::PhotonStorage);
@@ -48,6 +58,12 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
             verdict.fault(None, found, "End TracePhoton where Trace returns false.");
         }
     }
+    // TracePhoton alone may lack what is done before it in a run.
+    let is_right_in_run = observed.log.whole.stores_right_hits();
+    if is_right_in_run {
+        let is_refuted = |fault: &Fault| fault.name.is_some_and(|name| WHICH_HITS.contains(&name));
+        verdict.faults.retain(|fault| !is_refuted(fault));
+    }
     if STORAGE.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
         verdict.remarks.push(
             "TracePhoton takes other arguments than the framework's, so paths that start with two \
@@ -64,8 +80,11 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         && [PlanStep::Black, PlanStep::StoreMiss]
             .into_iter()
             .all(|step| observed.death(step).is_none());
+    let dies_alone = observed.death(PlanStep::StoreLater(2)).is_some()
+        && STORAGE.iter().all(|step| !starts_at_light(*step) || observed.death(*step).is_none());
     let own: Vec<_> = STORAGE
         .into_iter()
+        .filter(|step| !is_right_in_run || starts_at_light(*step) || !dies_alone)
         .filter(|step| match is_on_black_wall(*step) {
             true => !stores_before_dying,
             false => !dies_scattering || *step == PlanStep::StoreMiss,
@@ -78,6 +97,11 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         );
     }
     verdict.finish(observed, "TracePhoton", &own, told)
+}
+
+/// Whether a run could begin like that.
+fn starts_at_light(step: PlanStep) -> bool {
+    matches!(step, PlanStep::StoreFirst | PlanStep::GrowPath)
 }
 
 fn is_on_black_wall(step: PlanStep) -> bool {
