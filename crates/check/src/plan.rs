@@ -123,20 +123,12 @@ pub(crate) const SCATTERING: [PlanStep; 10] = [
 
 /// The steps, in the order in which they are carried out.
 pub fn steps() -> Vec<PlanStep> {
-    let mut steps = vec![
-        PlanStep::Emit,
-        PlanStep::EmitCorner,
-        PlanStep::EmitOnSphere,
-        PlanStep::EmitZero,
-        PlanStep::StoreFirst,
-        PlanStep::GrowPath,
-    ];
+    let mut steps =
+        vec![PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
+    steps.extend(STORAGE);
     steps.extend(SCATTERING);
     steps.push(PlanStep::Floor);
     steps.extend(wall_normals().into_iter().map(PlanStep::Wall));
-    // Where TracePhoton alone does not work, deaths must not hide the steps above.
-    let alone = |step: &PlanStep| !matches!(step, PlanStep::StoreFirst | PlanStep::GrowPath);
-    steps.extend(STORAGE.into_iter().filter(alone));
     // These two end by the clock, which must change no number before.
     steps.extend([PlanStep::Whole, PlanStep::Around, PlanStep::AroundLight]);
     steps

@@ -19,8 +19,9 @@ use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome, on_clock};
 const PATIENCE: Duration = Duration::from_secs(3);
 /// The signal that ends a step whose processor time is used up.
 const SIGPROF: i32 = 27;
-/// After so many steps that died, the others are left out, except the whole run.
-const MOST_DEATHS: usize = 6;
+/// After so many steps that died, the others are left out, except the whole run. One more than the
+/// steps that call `TracePhoton` by itself.
+const MOST_DEATHS: usize = 8;
 /// The memory of a submission, in MiB.
 const MEMORY: u64 = 1 << 10;
 
@@ -61,7 +62,7 @@ pub enum Death {
 }
 
 impl Death {
-    fn is_time_out(&self) -> bool {
+    pub(crate) fn is_time_out(&self) -> bool {
         matches!(self, Self::TimeOut { .. })
     }
 

@@ -96,7 +96,7 @@ fn an_offset_to_the_wrong_side_is_told() {
     {
         let Some(report) = report(&[("hit + 1e-5f * n", offset)]) else { return };
         let section = Section::HemisphereRayTransformation;
-        tells(&report, section, Some("no-offset"), "below the surface");
+        tells(&report, section, Some("offset-below"), "below the surface");
     }
     let Some(report) = report(&[("hit + 1e-5f * n", "hit")]) else { return };
     tells(&report, Section::HemisphereRayTransformation, Some("no-offset"), "missing or too short");

@@ -15,6 +15,10 @@ use variants::section::Section;
 use crate::plan::{COLORS, PlanStep};
 use crate::run::{Death, Observed};
 
+const ENDLESS: &str = "Draw again only while x^2 + y^2 + z^2 > 1, with new numbers each time. \
+                       Dividing two integers, rand() / RAND_MAX, gives 0, so that x, y and z never \
+                       change.";
+
 /// What a section's verdict is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -102,7 +106,7 @@ impl SectionVerdict {
             let Some(death) = observed.death(*step) else { continue };
             // A path without end runs out of stack: that is told already.
             let has_no_limit = self.faults.iter().any(|fault| fault.name == Some("no-limit"));
-            if has_no_limit && matches!(step, PlanStep::Remaining(_)) {
+            if has_no_limit && matches!(step, PlanStep::Remaining(_) | PlanStep::GrowPath) {
                 continue;
             }
             let sentence = format!("{function} {}", death.sentence());
@@ -110,7 +114,10 @@ impl SectionVerdict {
                 is_seen = false;
             } else if !own.contains(&sentence) {
                 let found = format!("{sentence} ({})", where_of(*step));
-                let advice = "Mend this first: what comes after it was not seen.";
+                let advice = match self.section {
+                    Section::PhotonEmission if death.is_time_out() => ENDLESS,
+                    _ => "Mend this first: what comes after it was not seen.",
+                };
                 self.faults.push(Fault { name: None, found, advice });
                 own.push(sentence);
             }
