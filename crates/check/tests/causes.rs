@@ -101,3 +101,18 @@ fn an_offset_to_the_wrong_side_is_told() {
     let Some(report) = report(&[("hit + 1e-5f * n", "hit")]) else { return };
     tells(&report, Section::HemisphereRayTransformation, Some("no-offset"), "missing or too short");
 }
+
+/// The positions tell what is right; the intensities cost nothing.
+#[test]
+fn other_intensities_are_told_of_the_reference_s_photons() {
+    let changes = [
+        ("> 0.99f", "> 0.9f"),
+        (
+            "TracePhoton(photonMap, &scattered, light",
+            "TracePhoton(photonMap, &scattered, d / pr * light",
+        ),
+    ];
+    let Some(report) = report(&changes) else { return };
+    assert!(report.whole.is_reference(), "{}", report.whole.sentence(&report.sections));
+    assert!(report.remarks.iter().any(|remark| remark.contains("intensities are not")));
+}
