@@ -56,6 +56,8 @@ pub struct Call {
     pub ended: bool,
     /// How many random numbers were drawn from the functions that the harness stands behind.
     pub drawn: u32,
+    /// How often `srand` or its like was called with a seed that the step has had before.
+    pub seeded_again: u32,
     /// What an exception said that ended the call.
     pub exception: Option<String>,
 }
@@ -99,10 +101,24 @@ impl StepLog {
 pub struct WholeLog {
     /// What was stored.
     pub records: Vec<PhotonRecord>,
-    /// Numbers drawn, photons emitted, rays traced; nothing when the run did not end.
-    pub counts: Option<[u64; 3]>,
+    /// Numbers drawn, photons emitted, rays traced, hits after the first of a path; nothing when
+    /// the run did not end.
+    pub counts: Option<[u64; 4]>,
     /// Whether more was stored than anyone reads.
     pub is_too_long: bool,
+}
+
+impl WholeLog {
+    /// Whether each hit after the first of a path is stored, once, and no other.
+    pub fn stores_right_hits(&self) -> bool {
+        let place = |record: &PhotonRecord| (record.photon, record.bounce);
+        let is_once = || self.records.windows(2).all(|pair| place(&pair[0]) != place(&pair[1]));
+        let count = self.records.len() as u64;
+        count > 0
+            && self.counts.is_some_and(|[.., bounced]| bounced == count)
+            && self.records.iter().all(|record| record.bounce > 0)
+            && is_once()
+    }
 }
 
 /// Something that is worth saying, and happened at least once.
@@ -112,8 +128,6 @@ pub enum Notice {
     RandomDevice,
     /// A process was to be started.
     Process,
-    /// `srand` or its like was called.
-    Srand,
     /// System calls are not filtered on this system.
     NotGuarded,
 }

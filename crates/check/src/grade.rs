@@ -11,6 +11,8 @@ use crate::sections::{self, Status};
 const BUILDS: &str = "builds";
 const WHOLE: &str = "whole run";
 const REMARK: &str = "remark";
+/// The faults that nobody takes for the reference's picture.
+const GRAVE: [&str; 2] = ["direct-stored", "wrong-position"];
 
 /// The grade of `report`, with the photon list and what its statistics say where it stored any.
 ///
@@ -52,8 +54,11 @@ pub fn grade(report: &CheckReport, settings: &Settings, expectations: &Expectati
     let misreading =
         named.and_then(|fault| fault.name).or_else(|| by_list.and_then(|grade| grade.misreading));
     let is_grave = |finding: &Finding| finding.is_fault() && finding.weight == Weight::Grave;
-    let is_plausible = !of_list.is_some_and(|grade| grade.findings.iter().any(is_grave))
-        && faults().all(|fault| fault.name != Some("direct-stored"));
+    // Where sections are wrong, they say more than the list.
+    let is_plausible = match faults().next() {
+        Some(_) => faults().all(|fault| !GRAVE.iter().any(|name| fault.name == Some(name))),
+        None => !of_list.is_some_and(|grade| grade.findings.iter().any(is_grave)),
+    };
     let right = || {
         let right = report.sections.iter().filter(|verdict| verdict.is_right());
         right.map(|verdict| verdict.section.title())

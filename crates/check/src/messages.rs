@@ -92,9 +92,9 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
             call(log).stored.push(stored);
         }
         b'E' => {
-            let drawn = rest.u32()?;
+            let (drawn, seeded_again) = (rest.u32()?, rest.u32()?);
             let call = call(log);
-            (call.drawn, call.ended) = (drawn, true);
+            (call.drawn, call.seeded_again, call.ended) = (drawn, seeded_again, true);
         }
         b'X' => {
             let length = rest.u16()? as usize;
@@ -114,7 +114,7 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
                 surface: row.u16()?,
             });
         }
-        b'C' => log.whole.counts = Some([rest.u64()?, rest.u64()?, rest.u64()?]),
+        b'C' => log.whole.counts = Some([rest.u64()?, rest.u64()?, rest.u64()?, rest.u64()?]),
         b'A' => {
             let counts = rest.take(4 * AROUND_BINS)?.chunks_exact(4);
             let number = |bytes: &[u8]| bytes.try_into().map_or(0, u32::from_ne_bytes);
@@ -126,8 +126,7 @@ fn message(bytes: &[u8], log: &mut Log) -> Option<usize> {
             log.notices.extend(match rest.u8()? {
                 1 => Some(Notice::RandomDevice),
                 2 => Some(Notice::Process),
-                3 => Some(Notice::Srand),
-                4 => Some(Notice::NotGuarded),
+                3 => Some(Notice::NotGuarded),
                 _ => None,
             });
         }

@@ -123,18 +123,14 @@ pub(crate) const SCATTERING: [PlanStep; 10] = [
 
 /// The steps, in the order in which they are carried out.
 pub fn steps() -> Vec<PlanStep> {
-    let mut steps = vec![
-        PlanStep::Emit,
-        PlanStep::EmitCorner,
-        PlanStep::EmitOnSphere,
-        PlanStep::EmitZero,
-        PlanStep::AroundLight,
-    ];
+    let mut steps =
+        vec![PlanStep::Emit, PlanStep::EmitCorner, PlanStep::EmitOnSphere, PlanStep::EmitZero];
     steps.extend(STORAGE);
     steps.extend(SCATTERING);
     steps.push(PlanStep::Floor);
     steps.extend(wall_normals().into_iter().map(PlanStep::Wall));
-    steps.extend([PlanStep::Around, PlanStep::Whole]);
+    // These two end by the clock, which must change no number before.
+    steps.extend([PlanStep::Whole, PlanStep::Around, PlanStep::AroundLight]);
     steps
 }
 

@@ -113,7 +113,10 @@ impl Whole {
                 self.photons
             )
         };
-        let photon = first.photon.map(explain).unwrap_or_default();
+        // The photon that shows it is the one to look at.
+        let shown = what.split_once("as photon ").and_then(|(_, rest)| rest.split_once(" shows"));
+        let shown = shown.and_then(|(number, _)| number.replace(',', "").parse().ok());
+        let photon = shown.or(first.photon).map(explain).unwrap_or_default();
         format!("it differs from the reference{what}{photon}")
     }
 }

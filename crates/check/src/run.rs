@@ -2,6 +2,7 @@
 //! another.
 
 use std::ffi::OsString;
+use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -18,8 +19,9 @@ use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome, on_clock};
 const PATIENCE: Duration = Duration::from_secs(3);
 /// The signal that ends a step whose processor time is used up.
 const SIGPROF: i32 = 27;
-/// After so many steps that died, the others are left out, except the whole run.
-const MOST_DEATHS: usize = 6;
+/// After so many steps that died, the others are left out, except the whole run. One more than the
+/// steps that call `TracePhoton` by itself.
+const MOST_DEATHS: usize = 8;
 /// The memory of a submission, in MiB.
 const MEMORY: u64 = 1 << 10;
 
@@ -60,7 +62,7 @@ pub enum Death {
 }
 
 impl Death {
-    fn is_time_out(&self) -> bool {
+    pub(crate) fn is_time_out(&self) -> bool {
         matches!(self, Self::TimeOut { .. })
     }
 
@@ -155,10 +157,11 @@ pub fn run(
     let plan_path = folder.join("plan.txt");
     write(&plan_path, plan::file(photons).as_bytes())?;
     let steps = plan::steps();
+    let whole = number_of_whole();
     let mut observed = Observed { deaths: vec![None; steps.len()], ..Observed::default() };
-    let mut first = 0;
+    let (mut first, mut end) = (0, steps.len());
     let mut deaths = 0;
-    while first < steps.len() {
+    while first < end {
         observed.log.current = None;
         observed.log.stack_overflowed = false;
         observed.log.memory_ran_out = false;
@@ -166,7 +169,7 @@ pub fn run(
         let small = PATIENCE.min(time);
         // Whoever has waited for an endless loop already waits no longer for the whole.
         let times = Times { small, whole: if has_waited { small } else { time } };
-        let outcome = run_from(harness, folder, &plan_path, first, times, &mut observed.log)?;
+        let outcome = run_from(harness, folder, &plan_path, first..end, times, &mut observed.log)?;
         observed.printed_bytes += outcome.printed_bytes;
         if observed.printed.is_empty() {
             observed.printed = outcome.printed.clone();
@@ -185,25 +188,24 @@ pub fn run(
             first += 1;
             continue;
         };
-        let current = current.clamp(first, steps.len() - 1);
+        let current = current.clamp(first, end - 1);
         observed.log.is_broken = false;
         let is_endless = death.is_time_out();
         observed.deaths[current] = Some(death);
         deaths += 1;
         first = current + 1;
-        // An emission that never ends ends with no other numbers either. One that dies is not
-        // called a million times.
-        while steps[current].is_emission()
-            && (is_endless && steps[first].is_emission() || steps[first] == PlanStep::AroundLight)
-        {
-            observed.deaths[first] = Some(Death::LeftOut);
-            first += 1;
-        }
-        if deaths >= MOST_DEATHS && first < steps.len() - 1 {
-            for left_out in &mut observed.deaths[first..steps.len() - 1] {
-                *left_out = Some(Death::LeftOut);
+        if steps[current].is_emission() {
+            // One that dies is not called a million times.
+            end = end.min(steps.len() - 1);
+            // One that never ends ends with no other numbers either.
+            while is_endless && first < end && steps[first].is_emission() {
+                observed.deaths[first] = Some(Death::LeftOut);
+                first += 1;
             }
-            first = steps.len() - 1;
+        }
+        if deaths >= MOST_DEATHS && first < whole {
+            observed.deaths[first..whole].fill(Some(Death::LeftOut));
+            (first, end) = (whole, whole + 1);
         }
     }
     for (death, log) in observed.deaths.iter_mut().zip(&observed.log.steps) {
@@ -216,6 +218,11 @@ pub fn run(
     Ok(observed)
 }
 
+fn number_of_whole() -> usize {
+    let is_whole = |step: &PlanStep| *step == PlanStep::Whole;
+    plan::steps().iter().position(is_whole).expect("it is one of them")
+}
+
 /// The processor time that steps may use.
 #[derive(Clone, Copy)]
 struct Times {
@@ -226,7 +233,7 @@ struct Times {
 impl Times {
     /// Of the step that runs.
     fn of(self, log: &Log) -> Duration {
-        let is_whole = log.current == Some(plan::steps().len() - 1);
+        let is_whole = log.current == Some(number_of_whole());
         if is_whole { self.whole } else { self.small }
     }
 }
@@ -235,7 +242,7 @@ fn run_from(
     harness: &Path,
     folder: &Path,
     plan_path: &Path,
-    first: usize,
+    steps: Range<usize>,
     times: Times,
     log: &mut Log,
 ) -> Result<RunOutcome, CheckError> {
@@ -244,7 +251,8 @@ fn run_from(
         command: vec![
             harness.into(),
             plan_path.into(),
-            first.to_string().into(),
+            steps.start.to_string().into(),
+            steps.end.to_string().into(),
             seconds(times.small),
             seconds(times.whole),
         ],

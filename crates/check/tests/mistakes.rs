@@ -5,7 +5,6 @@ mod support;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
-use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use check::find::CppSubmission;
@@ -15,42 +14,7 @@ use check::sections::Status;
 use check::{CheckReport, CheckSettings, check};
 use variants::section::Section;
 
-fn submissions() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/submissions")
-}
-
-/// The report on `one_function`, with each pair's first text replaced by its second.
-fn report(changes: &[(&str, &str)]) -> Option<CheckReport> {
-    let kit = support::kit()?;
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut unused: Vec<_> = changes.to_vec();
-    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
-        let mut text =
-            fs::read_to_string(submissions().join("one_function").join(name)).expect("a file");
-        unused.retain(|(from, _)| !text.contains(from));
-        for (from, to) in changes {
-            text = text.replace(from, to);
-        }
-        fs::write(folder.path().join(name), text).expect("can be written");
-    }
-    assert!(unused.is_empty(), "{unused:?} is nowhere");
-    let submission = CppSubmission::find(folder.path()).expect("a submission");
-    let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
-    Some(check(&submission, kit, &settings).expect("it can be checked"))
-}
-
-/// What is said of the sections, for messages of tests.
-fn sections_text(report: &CheckReport) -> String {
-    let line = |verdict: &check::sections::SectionVerdict| format!("{verdict:#?}");
-    report.sections.iter().map(line).collect::<Vec<_>>().join("\n")
-}
-
-fn faults(report: &CheckReport) -> Vec<(Section, Option<&'static str>)> {
-    let sections = report.sections.iter();
-    let faults = sections
-        .flat_map(|verdict| verdict.faults.iter().map(|fault| (verdict.section, fault.name)));
-    faults.collect()
-}
+use support::{faults, report, sections_text, submissions};
 
 #[test]
 fn a_right_solution_is_right_in_every_section() {

@@ -1,9 +1,9 @@
 // Runs the two handed-in files: on small scenes with known answers, one section of the handout at a
 // time, and on the handout's scene. What they do is recorded (recorder.hpp) and judged elsewhere.
 //
-//   harness PLAN FIRST SECONDS WHOLE
+//   harness PLAN FIRST END SECONDS WHOLE
 //
-// carries out the steps of the file PLAN from number FIRST on. A step on a small scene has SECONDS of
+// carries out the steps of the file PLAN from number FIRST to before END. A step on a small scene has SECONDS of
 // processor time, the whole run has WHOLE; SIGPROF ends what takes longer.
 //
 // A plan has one item a line:
@@ -22,6 +22,7 @@
 // COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled
 // with -fno-access-control, since TracePhoton is private.
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -67,24 +68,31 @@ struct Step {
     std::vector<std::uint32_t> numbers;
 };
 
-// Stands in for the light where TracePhoton cannot be called: it emits the step's rays.
+// Thrown where InitializeRenderer asks for more rays than it was told to.
+struct EnoughRays {};
+
+// Stands in for the light of paths that start there: it emits the step's rays.
 class ScriptedLight : public Light {
 public:
-    explicit ScriptedLight(const Step& of_step) : step(of_step), calls(0) {}
+    explicit ScriptedLight(const Step& of_step) : calls(0), step(of_step) {}
     void ComputeSampleRays(std::vector<Ray>&, glm::vec3, glm::vec3) const override {}
     float ComputeLightAttenuation(glm::vec3) const override { return 1.f; }
     void GenerateRandomPhotonRay(Ray& ray) const override {
         if (calls > 0) {
             end_call();
         }
+        if (calls == step.calls) {
+            throw EnoughRays();
+        }
         begin_call();
         begin_numbers(seed, calls, step.numbers.data(), step.numbers.size());
         ray = step.rays[calls++ % step.rays.size()];
     }
 
+    mutable std::uint64_t calls;
+
 private:
     const Step& step;
-    mutable std::uint64_t calls;
 };
 
 struct LightData {
@@ -281,22 +289,27 @@ void run_emit(const Plan& plan, const Step& step) {
     }
 }
 
-// Through InitializeRenderer, for a TracePhoton that takes other arguments. Its paths start with
-// the light alone.
+// Whether paths of the step that start at the light went through InitializeRenderer, as in a run:
+// TracePhoton may need what is done there before.
 template <class Renderer>
-void run_trace_from_light(Renderer& renderer, Scene& scene, const Step& step) {
+bool trace_from_light(Renderer& renderer, Scene& scene, const Step& step) {
     if (step.path != 1 || !set_bounces(renderer, step.remaining, 0)) {
-        other_signature();
-        return;
+        return false;
     }
     const std::shared_ptr<ScriptedLight> light = std::make_shared<ScriptedLight>(step);
     light->SetLightColor(glm::vec3(1.f));
     scene.AddLight(light);
     set_photons(renderer, static_cast<int>(step.calls), 0);
-    set_mode(Mode::events);
-    if (guarded([&] { renderer.InitializeRenderer(); })) {
-        end_call();
-    }
+    guarded([&] {
+        try {
+            renderer.InitializeRenderer();
+            if (light->calls > 0) {
+                end_call();
+            }
+        } catch (const EnoughRays&) {
+        }
+    });
+    return light->calls > 0;
 }
 
 void run_trace(const Plan& plan, const Step& step) {
@@ -305,11 +318,16 @@ void run_trace(const Plan& plan, const Step& step) {
     if (!guarded([&] { renderer = make_renderer(scene); })) {
         return;
     }
-    if (!can_call(*renderer, 0)) {
-        run_trace_from_light(*renderer, *scene, step);
+    set_mode(Mode::events);
+    if (trace_from_light(*renderer, *scene, step)) {
         return;
     }
-    set_mode(Mode::events);
+    if (!can_call(*renderer, 0)) {
+        other_signature();
+        return;
+    }
+    // As if the path had started with all bounces before it.
+    set_bounces(*renderer, step.remaining + static_cast<int>(step.path) - 1, 0);
     for (std::uint64_t i = 0; i < step.calls; ++i) {
         begin_call();
         begin_numbers(seed, i, step.numbers.data(), step.numbers.size());
@@ -380,17 +398,18 @@ int main(int argc, char** argv) {
     open_pipe();
     watch_the_stack();
     Plan plan;
-    if (argc != 5 || !read_plan(argv[1], plan)) {
-        std::fprintf(stderr, "harness: expected a plan, the number of a step and two times\n");
+    if (argc != 6 || !read_plan(argv[1], plan)) {
+        std::fprintf(stderr, "harness: expected a plan, two numbers of steps and two times\n");
         return 2;
     }
     if (!system_calls_are_filtered()) {
         notice(not_guarded);
     }
-    for (std::size_t i = std::stoul(argv[2]); i < plan.steps.size(); ++i) {
+    const std::size_t end = std::min<std::size_t>(std::stoul(argv[3]), plan.steps.size());
+    for (std::size_t i = std::stoul(argv[2]); i < end; ++i) {
         const Step& step = plan.steps[i];
         begin_step(static_cast<std::uint32_t>(i));
-        const char* const seconds = argv[step.kind == Step::whole ? 4 : 3];
+        const char* const seconds = argv[step.kind == Step::whole ? 5 : 4];
         give_processor_time(static_cast<unsigned>(std::stoul(seconds)));
         // A third of it is far from its end.
         const double around_seconds = std::stoul(seconds) / 3.0;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <random>
+#include <set>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -22,7 +23,7 @@ namespace photon_check {
 namespace {
 
 struct Numbers {
-    Numbers() : scripted(nullptr), scripted_left(0), drawn(0) {
+    Numbers() : scripted(nullptr), scripted_left(0), drawn(0), again(0) {
         // What is drawn before any photon, as in a static constructor, comes from the last stream.
         stream.select(148, ~0ull);
     }
@@ -31,6 +32,8 @@ struct Numbers {
     const std::uint32_t* scripted;
     std::size_t scripted_left;
     std::uint64_t drawn;
+    std::set<long> seeds;
+    std::uint32_t again;
 };
 
 Numbers& numbers() {
@@ -56,6 +59,16 @@ std::uint32_t draw() {
 int draw_int() { return static_cast<int>(draw()); }
 double draw_double() { return (draw() >> 7) / 16777216.0; }
 
+// The numbers go on as they would. Whoever seeds with the time for every photon gets the same ones
+// again and again elsewhere.
+void seed_with(long seed) {
+    const std::size_t enough = 100000;
+    Numbers& all = numbers();
+    if (all.seeds.size() < enough && !all.seeds.insert(seed).second) {
+        ++all.again;
+    }
+}
+
 } // namespace
 
 void begin_numbers(std::uint64_t seed, std::uint64_t photon, const std::uint32_t* scripted,
@@ -67,25 +80,28 @@ void begin_numbers(std::uint64_t seed, std::uint64_t photon, const std::uint32_t
 }
 
 std::uint64_t numbers_drawn() { return numbers().drawn; }
+std::uint32_t seeds_again() { return numbers().again; }
+void forget_seeds() { numbers().seeds.clear(); }
 
 } // namespace photon_check
 
 using photon_check::draw_double;
 using photon_check::draw_int;
 using photon_check::notice;
+using photon_check::seed_with;
 
 extern "C" {
 
 int rand() NO_THROW { return draw_int(); }
-void srand(unsigned) NO_THROW { notice(photon_check::srand_called); }
+void srand(unsigned seed) NO_THROW { seed_with(seed); }
 int rand_r(unsigned*) NO_THROW { return draw_int(); }
 long random() NO_THROW { return draw_int(); }
-void srandom(unsigned) NO_THROW { notice(photon_check::srand_called); }
+void srandom(unsigned seed) NO_THROW { seed_with(seed); }
 double drand48() NO_THROW { return draw_double(); }
 double erand48(unsigned short*) NO_THROW { return draw_double(); }
 long lrand48() NO_THROW { return draw_int(); }
 long nrand48(unsigned short*) NO_THROW { return draw_int(); }
-void srand48(long) NO_THROW { notice(photon_check::srand_called); }
+void srand48(long seed) NO_THROW { seed_with(seed); }
 
 // The time seeds generators. With a fixed one, every run is the same.
 std::time_t time(std::time_t* out) NO_THROW {

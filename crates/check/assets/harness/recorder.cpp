@@ -24,10 +24,12 @@ std::size_t used = head_size;
 Mode mode = Mode::silent;
 std::uint64_t calls_of_step = 0;
 std::uint64_t drawn_before_call = 0;
+std::uint32_t seeds_before_call = 0;
 std::uint64_t drawn_before_run = 0;
 std::uint64_t photons = 0;
 std::uint64_t rays = 0;
 std::uint64_t records = 0;
+std::uint64_t bounced = 0;
 std::uint64_t photon = 0;
 std::uint16_t hits_of_photon = 0;
 std::uint16_t last_object = 0;
@@ -114,7 +116,8 @@ void memory_ran_out() { tell_at_once('M'); }
 
 void set_mode(Mode new_mode) {
     mode = new_mode;
-    calls_of_step = photons = rays = records = 0;
+    calls_of_step = photons = rays = records = bounced = 0;
+    forget_seeds();
     drawn_before_run = numbers_drawn();
 }
 
@@ -136,6 +139,7 @@ void begin_call() {
     ++calls_of_step;
     put('N');
     drawn_before_call = numbers_drawn();
+    seeds_before_call = seeds_again();
 }
 
 void end_call() {
@@ -144,6 +148,7 @@ void end_call() {
     }
     put('E');
     put_number(static_cast<std::uint32_t>(numbers_drawn() - drawn_before_call));
+    put_number(seeds_again() - seeds_before_call);
 }
 
 void end_call_with_exception(const char* what) {
@@ -173,6 +178,7 @@ void on_trace(const float (&position_and_direction)[6], bool met, bool has_state
         count_second_ray(position_and_direction + 3);
     }
     if (met && has_state) {
+        bounced += hits_of_photon > 0;
         ++hits_of_photon;
         last_object = static_cast<std::uint16_t>(object);
     }
@@ -209,6 +215,7 @@ void end_whole_run() {
     put_number(numbers_drawn() - drawn_before_run);
     put_number(photons);
     put_number(rays);
+    put_number(bounced);
 }
 
 void tell_around(const std::uint32_t (&counts)[around_bins]) {

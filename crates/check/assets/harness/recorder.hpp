@@ -11,10 +11,11 @@
 //                    Scene::Trace was called with this position and direction; bit 0: it met
 //                    something, bit 1: a state was given; the distance, the object, the triangle
 //   P 9 f32          a photon was stored: position, intensity, direction to the light
-//   E u32            the call ended; the numbers it drew
+//   E u32, u32       the call ended; the numbers it drew, and how often it took an old seed
 //   X u16, bytes     the call ended with an exception, which says this
 //   W 44 bytes       a photon of the whole run was stored: a row of a photon list
-//   C u64, u64, u64  the whole run ended: numbers drawn, photons emitted, rays traced
+//   C 4 u64          the whole run ended: numbers drawn, photons emitted, rays traced, hits after
+//                    the first of a path
 //   A 720 u32        the directions of a step around x, y or z, which come in this order; 720 parts
 //                    of the circle
 //   L                the whole run stored more than anyone reads
@@ -34,8 +35,7 @@ namespace photon_check {
 enum Notice : std::uint8_t {
     random_device_read = 1,
     process_started = 2,
-    srand_called = 3,
-    not_guarded = 4,
+    not_guarded = 3,
 };
 
 // What is told: single calls (the steps for one section), directions around an axis, or only stored
@@ -93,5 +93,8 @@ void begin_photon(std::uint64_t number);
 void begin_numbers(std::uint64_t seed, std::uint64_t photon, const std::uint32_t* scripted,
                    std::size_t count);
 std::uint64_t numbers_drawn();
+// How often a seed was set that had been set since seeds were forgotten.
+std::uint32_t seeds_again();
+void forget_seeds();
 
 } // namespace photon_check

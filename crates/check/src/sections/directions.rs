@@ -207,10 +207,13 @@ pub fn frames(normal: Vec3) -> Vec<(FrameForm, Mat3)> {
         for (t, b) in [normalized(*axis), as_written(*axis)] {
             frames.push((FrameForm::Flipped, Mat3::from_cols(t, b, -normal)));
             frames.push((FrameForm::Transposed, Mat3::from_cols(t, b, normal).transpose()));
-            frames.push((FrameForm::OtherOrder, Mat3::from_cols(t, normal, b)));
-            frames.push((FrameForm::OtherOrder, Mat3::from_cols(normal, t, b)));
-            frames.push((FrameForm::OtherOrder, Mat3::from_cols(normal, b, t)));
-            frames.push((FrameForm::OtherOrder, Mat3::from_cols(b, normal, t)));
+            // b = t x n points the other way.
+            for sign in [1.0, -1.0] {
+                frames.extend(
+                    [[t, normal, b], [normal, t, b], [normal, b, t], [b, normal, t]]
+                        .map(|[x, y, z]| (FrameForm::OtherOrder, Mat3::from_cols(x, y, sign * z))),
+                );
+            }
         }
     }
     frames.push((FrameForm::None, Mat3::IDENTITY));

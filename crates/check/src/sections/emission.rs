@@ -3,7 +3,7 @@
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 
-use super::{SectionVerdict, around, turns};
+use super::{SectionVerdict, around, judge_seeds, turns};
 use crate::events::Call;
 use crate::plan::{LIGHT, PlanStep, SECOND_TRY, first_try};
 use crate::run::Observed;
@@ -111,6 +111,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     if verdict.faults.is_empty() {
         judge_scripted(observed, &mut verdict);
     }
+    judge_seeds(observed, &mut verdict);
     verdict.finish(observed, function, &steps, told)
 }
 
@@ -195,12 +196,22 @@ fn judge_law(observed: &Observed, directions: &[Vec3], verdict: &mut SectionVerd
         return;
     }
     let [x, y, z] = [0, 1, 2].map(|axis| mean(&found[axis]));
+    let pairs = [("x and y", 0, 1), ("y and z", 1, 2), ("x and z", 0, 2)];
+    let same = |(_, a, b): &&(&str, usize, usize)| directions.iter().all(|v| v[*a] == v[*b]);
+    if let Some((names, ..)) = pairs.iter().find(same) {
+        let found = format!("{names} are the same in all {} directions", directions.len());
+        verdict.fault(None, found, "Draw a random number for each of x, y and z.");
+        return;
+    }
     let above = directions.iter().filter(|direction| direction.z > 0.0).count();
+    let mean = Vec3::new(x as f32, y as f32, z as f32);
+    let aims = mean.length() > 0.3 && mean.normalize().dot(-LIGHT.normalize()) > 0.999;
     let is_half = above == 0 || above == directions.len();
     let found = format!(
         "directions are not even over the sphere: their mean is ({x:.3}, {y:.3}, {z:.3}), where \
-         (0, 0, 0) is expected, and {above} of {} go up",
-        directions.len()
+         (0, 0, 0) is expected, and {above} of {} go up{}",
+        directions.len(),
+        if aims { "; they go from the light toward the point (0, 0, 0) of the scene" } else { "" }
     );
     verdict.fault(
         is_half.then_some("half-directions"),

@@ -15,6 +15,10 @@ use variants::section::Section;
 use crate::plan::{COLORS, PlanStep};
 use crate::run::{Death, Observed};
 
+const ENDLESS: &str = "Draw again only while x^2 + y^2 + z^2 > 1, with new numbers each time. \
+                       Dividing two integers, rand() / RAND_MAX, gives 0, so that x, y and z never \
+                       change.";
+
 /// What a section's verdict is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -102,7 +106,7 @@ impl SectionVerdict {
             let Some(death) = observed.death(*step) else { continue };
             // A path without end runs out of stack: that is told already.
             let has_no_limit = self.faults.iter().any(|fault| fault.name == Some("no-limit"));
-            if has_no_limit && matches!(step, PlanStep::Remaining(_)) {
+            if has_no_limit && matches!(step, PlanStep::Remaining(_) | PlanStep::GrowPath) {
                 continue;
             }
             let sentence = format!("{function} {}", death.sentence());
@@ -110,7 +114,10 @@ impl SectionVerdict {
                 is_seen = false;
             } else if !own.contains(&sentence) {
                 let found = format!("{sentence} ({})", where_of(*step));
-                let advice = "Mend this first: what comes after it was not seen.";
+                let advice = match self.section {
+                    Section::PhotonEmission if death.is_time_out() => ENDLESS,
+                    _ => "Mend this first: what comes after it was not seen.",
+                };
                 self.faults.push(Fault { name: None, found, advice });
                 own.push(sentence);
             }
@@ -154,6 +161,49 @@ fn where_of(step: PlanStep) -> String {
         PlanStep::Floor => "a floor with P_r = 0.5".to_owned(),
         PlanStep::Wall(n) => format!("a wall with the normal ({}, {}, {})", n.x, n.y, n.z),
         PlanStep::Whole => "the handout's scene".to_owned(),
+    }
+}
+
+/// Tells where a seed is set anew for every photon. Here that changes no number; elsewhere, all
+/// photons of a second are then alike.
+fn judge_seeds(observed: &Observed, verdict: &mut SectionVerdict) {
+    let seeded = |step: PlanStep| {
+        let calls = observed.step(step).map_or(&[][..], |log| &log.calls);
+        (calls.iter().filter(|call| call.seeded_again > 0).count(), calls.len())
+    };
+    let is_emission = verdict.section == Section::PhotonEmission;
+    let in_light = seeded(PlanStep::Emit);
+    let is_in_trace = seeded(PlanStep::Remaining(1)).0 > 0;
+    let ((count, total), function) = match (is_emission, is_in_trace) {
+        (true, _) if in_light.0 > 0 => (in_light, "GenerateRandomPhotonRay"),
+        (true, false) => (seeded(PlanStep::Floor), "GenericPhotonMapGeneration"),
+        (false, true) => (seeded(PlanStep::Floor), "TracePhoton"),
+        _ => return,
+    };
+    // A few photons may be the first of something.
+    if 8 * count > total {
+        let found = format!(
+            "{function} calls srand with the same seed again for {count} of {total} photons: \
+             random numbers then repeat from photon to photon"
+        );
+        let advice = "Call srand once, in the constructor of PhotonMappingRenderer.";
+        verdict.fault(Some("seeded-again"), found, advice);
+    }
+}
+
+/// Takes back what a whole run with the reference's photons refutes, and what it shows.
+pub fn refute(verdicts: &mut [SectionVerdict]) {
+    const SHOWN: [&str; 5] =
+        ["never-scatters", "no-roulette", "inverted-roulette", "late-roulette", "numbers-again"];
+    for verdict in verdicts {
+        let faults = verdict.faults.len();
+        verdict.faults.retain(|fault| !fault.name.is_some_and(|name| SHOWN.contains(&name)));
+        let is_refuted = verdict.faults.is_empty() && faults > 0;
+        if is_refuted || verdict.status == Status::NotReached {
+            verdict.status = Status::Right;
+            verdict.remarks =
+                vec!["TracePhoton alone does not show it, but the whole run does".to_owned()];
+        }
     }
 }
 

@@ -157,7 +157,8 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
     let sines = &directions.sines;
     if sines.iter().all(|sine| *sine < 1e-6) {
         let found = format!("all {total} directions go along the normal");
-        let advice = "u1 is always 0: dividing two integers, rand() / RAND_MAX, gives 0.";
+        let advice = "x and y are always 0: look at r and u1. Dividing two integers, \
+                      rand() / RAND_MAX, gives 0.";
         verdict.fault(Some("along-normal"), found, advice);
         return true;
     }
@@ -174,6 +175,12 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
         verdict.fault(None, found, NEW_NUMBERS);
         return true;
     }
+    let first = rays[0].direction.normalize_or_zero();
+    if always(&|_| first) {
+        let found = format!("all {total} directions over a floor are the same");
+        verdict.fault(Some("same-direction"), found, NEW_NUMBERS);
+        return true;
+    }
     if below > 0 && below < total {
         let found = format!("{below} of {total} directions go below the floor; expected none");
         verdict.fault(
@@ -187,6 +194,10 @@ fn judge_angles(directions: &Directions, verdict: &mut SectionVerdict) -> bool {
     let cosine = mean_cosine(directions);
     if let Some(law) = law {
         law_fault(law, directions, verdict);
+    } else if sines.iter().all(|sine| (sine - sines[0]).abs() < 1e-4) {
+        let found =
+            format!("all directions have the same angle to the normal, of cosine {cosine:.3}");
+        verdict.fault(None, found, NEW_NUMBERS);
     } else if !is_uniform(sines) {
         let found =
             format!("directions do not follow the cosine: its mean is {cosine:.3}; expected 0.667");

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::SectionVerdict;
+use super::{SectionVerdict, judge_seeds};
 use crate::events::Call;
 use crate::plan::{COLORS, PlanStep, SCATTERING};
 use crate::run::Observed;
@@ -21,7 +21,7 @@ struct Rule {
     chance: fn(Vec3) -> f32,
 }
 
-const RULES: [Rule; 14] = [
+const RULES: [Rule; 15] = [
     Rule {
         name: "no-roulette",
         what: "every photon scatters, whatever the material",
@@ -103,6 +103,12 @@ const RULES: [Rule; 14] = [
         chance: |d| d.length(),
     },
     Rule {
+        name: "roulette-by-channel",
+        what: "every channel of the diffuse response has a random number of its own",
+        advice: "Draw one number, and compare it with the largest channel.",
+        chance: |d| 1.0 - (1.0 - d).element_product(),
+    },
+    Rule {
         name: "signed-roulette",
         what: "the number for the roulette lies in [-1, 1), not in [0, 1)",
         advice: "Do not scale the roulette's number as you do x, y and z.",
@@ -140,12 +146,18 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
                       with the new ray.";
         verdict.fault(Some("never-scatters"), found, advice);
     } else {
-        let is_first_right = judge_rule(&walls, &mut verdict);
-        if is_first_right {
-            judge_later(calls(PlanStep::GrayCube), &mut verdict);
+        let in_cube = calls(PlanStep::GrayCube);
+        if judge_rule(&walls, &mut verdict) {
+            judge_later(in_cube, &mut verdict);
+        } else if let [total @ 100..=usize::MAX, count] = counts(in_cube, 2)
+            && may_happen(count, total, 0.5)
+        {
+            let found = "this is so at the first hit of a path alone: later, the roulette is right";
+            verdict.remarks.push(found.to_owned());
         }
         judge_threshold(observed, &mut verdict);
     }
+    judge_seeds(observed, &mut verdict);
     verdict.finish(observed, "TracePhoton", &SCATTERING, told)
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::SectionVerdict;
+use super::{Fault, SectionVerdict};
 use crate::events::{Call, StepLog, Trace};
 use crate::plan::{INTENSITY, PlanStep, STORAGE};
 use crate::run::Observed;
@@ -15,6 +15,16 @@ const IN_EVERY_CALL: &str =
     "Call TracePhoton for the scattered ray in every call, not only in the first.";
 const ONLY_LATER: &str = "Store a photon only where path.size() is larger than 1, and let 'path' \
                           grow with every call of TracePhoton.";
+
+/// What the whole run can refute: which hits are stored, and how often.
+const WHICH_HITS: [&str; 6] = [
+    "direct-stored",
+    "third-hit-on",
+    "absorbed-not-stored",
+    "not-stored",
+    "stored-twice",
+    "path-does-not-grow",
+];
 
 pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdict {
     let mut verdict = SectionVerdict::new(Section::PhotonStorage);
@@ -36,17 +46,23 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
     } else {
         judge_first(ended(PlanStep::StoreFirst), &mut verdict);
         judge_later(&ended, &mut verdict);
+        judge_values(&ended, &mut verdict);
         if observed.death(PlanStep::GrowPath).is_none() {
             judge_growth(ended(PlanStep::GrowPath), &mut verdict);
         }
         judge_limit(&calls, ended(PlanStep::Remaining(1000)), &mut verdict);
-        judge_values(&ended, &mut verdict);
         let missed =
             calls(PlanStep::StoreMiss).iter().filter(|call| !call.stored.is_empty()).count();
         if missed > 0 {
             let found = "a photon is stored though its ray meets nothing".to_owned();
             verdict.fault(None, found, "End TracePhoton where Trace returns false.");
         }
+    }
+    // TracePhoton alone may lack what is done before it in a run.
+    let is_right_in_run = observed.log.whole.stores_right_hits();
+    if is_right_in_run {
+        let is_refuted = |fault: &Fault| fault.name.is_some_and(|name| WHICH_HITS.contains(&name));
+        verdict.faults.retain(|fault| !is_refuted(fault));
     }
     if STORAGE.iter().any(|step| observed.step(*step).is_some_and(|log| log.other_signature)) {
         verdict.remarks.push(
@@ -64,8 +80,11 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         && [PlanStep::Black, PlanStep::StoreMiss]
             .into_iter()
             .all(|step| observed.death(step).is_none());
+    let dies_alone = observed.death(PlanStep::StoreLater(2)).is_some()
+        && STORAGE.iter().all(|step| !starts_at_light(*step) || observed.death(*step).is_none());
     let own: Vec<_> = STORAGE
         .into_iter()
+        .filter(|step| !is_right_in_run || starts_at_light(*step) || !dies_alone)
         .filter(|step| match is_on_black_wall(*step) {
             true => !stores_before_dying,
             false => !dies_scattering || *step == PlanStep::StoreMiss,
@@ -78,6 +97,11 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         );
     }
     verdict.finish(observed, "TracePhoton", &own, told)
+}
+
+/// Whether a run could begin like that.
+fn starts_at_light(step: PlanStep) -> bool {
+    matches!(step, PlanStep::StoreFirst | PlanStep::GrowPath)
 }
 
 fn is_on_black_wall(step: PlanStep) -> bool {
@@ -161,7 +185,9 @@ fn judge_growth(calls: &[Call], verdict: &mut SectionVerdict) {
     let has_fault =
         |verdict: &SectionVerdict, name: &str| verdict.faults.iter().any(|f| f.name == Some(name));
     let stored: usize = calls.iter().map(|call| call.stored.len()).sum();
-    let first_stored = calls.iter().filter(|call| stores_first(call)).count();
+    // A wrong place tells nothing about which hit is stored.
+    let is_placed = !has_fault(verdict, "wrong-position");
+    let first_stored = calls.iter().filter(|call| is_placed && stores_first(call)).count();
     if first_stored > 0 && !has_fault(verdict, "direct-stored") {
         let found = format!(
             "the first hit of the path is stored in {first_stored} of {} calls: it comes directly \
@@ -184,7 +210,7 @@ fn judge_growth(calls: &[Call], verdict: &mut SectionVerdict) {
         return;
     }
     let second = calls.iter().filter(|call| call.hits().count() > 1);
-    let without = second.clone().filter(|call| lacks_second(call)).count();
+    let without = second.clone().filter(|call| is_placed && lacks_second(call)).count();
     if without > 0 {
         let found = format!(
             "the second hit of the path is not stored in {without} of {} calls; the first that is \
@@ -284,7 +310,7 @@ fn judge_limit<'a>(
 /// What the stored photons hold, at a wall that absorbs everything.
 fn judge_values<'a>(calls: &impl Fn(PlanStep) -> &'a [Call], verdict: &mut SectionVerdict) {
     let mut total = 0;
-    let mut elsewhere = None;
+    let mut elsewhere = Vec::new();
     let (mut off, mut intensity, mut reversed, mut unset, mut not_unit) = (0, 0, 0, 0, 0);
     for call in [2, 3].into_iter().flat_map(|path| calls(PlanStep::StoreLater(path))) {
         let Some(hit) = call.hits().next() else { continue };
@@ -292,7 +318,7 @@ fn judge_values<'a>(calls: &impl Fn(PlanStep) -> &'a [Call], verdict: &mut Secti
             total += 1;
             let distance = (stored.position - hit.hit()).length();
             if distance.is_nan() || distance > OFF_SURFACE {
-                elsewhere.get_or_insert((stored.position, hit.hit()));
+                elsewhere.push((stored.position, *hit));
             } else if distance > 1e-4 {
                 off += 1;
             }
@@ -312,8 +338,13 @@ fn judge_values<'a>(calls: &impl Fn(PlanStep) -> &'a [Call], verdict: &mut Secti
             }
         }
     }
-    if let Some((stored, hit)) = elsewhere {
-        let found = format!("a photon is stored at {stored}, and its ray met the wall at {hit}");
+    if let Some((stored, hit)) = elsewhere.first() {
+        let found = format!(
+            "a photon is stored at {}, and its ray met the wall at {}{}",
+            place(*stored),
+            place(hit.hit()),
+            where_instead(&elsewhere)
+        );
         let advice = "The position is state.intersectionRay.GetRayPosition(state.intersectionT).";
         verdict.fault(Some("wrong-position"), found, advice);
     }
@@ -327,4 +358,24 @@ fn judge_values<'a>(calls: &impl Fn(PlanStep) -> &'a [Call], verdict: &mut Secti
     remark(reversed, "toLightRay points along the photon's way, not against it");
     remark(unset, "toLightRay is not set to the opposite of the photon's ray");
     remark(not_unit, "toLightRay's direction is not a unit vector");
+}
+
+/// What is known about the places of photons that are not where their rays met the wall, which has
+/// the normal (0, 0, 1).
+fn where_instead(elsewhere: &[(Vec3, Trace)]) -> String {
+    let offset = |(stored, hit): &(Vec3, Trace)| *stored - hit.hit();
+    let first = offset(&elsewhere[0]);
+    if elsewhere.iter().all(|(stored, hit)| stored.abs_diff_eq(hit.from, 1e-4)) {
+        ": that is the start of its ray".to_owned()
+    } else if first.truncate().length() < 1e-4
+        && elsewhere.iter().all(|one| offset(one).abs_diff_eq(first, 1e-3))
+    {
+        format!(": it is moved by {:.3} along the normal", first.z)
+    } else {
+        String::new()
+    }
+}
+
+fn place(v: Vec3) -> String {
+    format!("({:.3}, {:.3}, {:.3})", v.x, v.y, v.z)
 }

@@ -234,6 +234,18 @@ fn judge_start(directions: &Directions, verdict: &mut SectionVerdict) {
     let mut lengths: Vec<_> = lengths.collect();
     lengths.sort_unstable_by(f32::total_cmp);
     let Some(length) = lengths.get(lengths.len() / 2).copied() else { return };
+    let below = offsets.iter().filter(|(offset, normal, ..)| offset.dot(*normal) < -SHORTEST);
+    let below = below.count();
+    if again as f64 > FEW * above as f64 && 2 * below > offsets.len() {
+        let found = format!(
+            "{below} of {} scattered photons start below the surface they leave, {length:.0e} from \
+             the hit, and {again} met it from behind",
+            offsets.len()
+        );
+        let advice = "Turn the sign of the offset round: the hit point plus 1e-5 times the normal.";
+        verdict.fault(Some("offset-below"), found, advice);
+        return;
+    }
     if again as f64 > FEW * above as f64 {
         let found = format!(
             "{again} of {above} scattered photons met the very wall they left: the offset is {}",
