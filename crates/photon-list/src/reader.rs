@@ -135,10 +135,9 @@ pub fn look(path: &Path) -> io::Result<Look> {
     })
 }
 
-/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record.
-/// Gives the columns, and what had to be guessed or is passed over. `-` is standard input. The list
-/// may have any of the columns of [`COLUMNS`], in any order, if x, y and z are among them; other
-/// columns are passed over.
+/// Reads the list `path`, PLY or text as its first bytes tell, and hands over record after record;
+/// `-` is standard input. It may have any of the columns of [`COLUMNS`], in any order, if x, y and
+/// z are among them. Gives the columns, and remarks on what was guessed or passed over.
 ///
 /// # Errors
 /// When the file cannot be read or is not a list.
