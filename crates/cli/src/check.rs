@@ -129,6 +129,14 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         let found = paths.len();
         return Err(CliError::Argument(format!("--list: expected one submission, found {found}")));
     }
+    let find = |(path, name): (&PathBuf, String)| {
+        Ok(CppSubmission { name, ..CppSubmission::find(path).map_err(argument)? })
+    };
+    let found: Vec<Result<CppSubmission, CliError>> =
+        paths.iter().zip(names.clone()).map(find).collect();
+    for submission in found.iter().flatten() {
+        protect(submission.light.iter().chain(&submission.renderer).chain(&submission.headers));
+    }
     protect_folders(&arguments.submissions);
     arguments.list.as_deref().map_or(Ok(()), refuse_protected)?;
     let (folder, files) = places_of_each(
@@ -137,13 +145,6 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         names.iter().map(String::as_str),
         paths.len(),
     )?;
-    let find = |(path, name): (&PathBuf, String)| {
-        Ok(CppSubmission { name, ..CppSubmission::find(path).map_err(argument)? })
-    };
-    let found: Vec<Result<CppSubmission, CliError>> = paths.iter().zip(names).map(find).collect();
-    for submission in found.iter().flatten() {
-        protect(submission.light.iter().chain(&submission.renderer).chain(&submission.headers));
-    }
     if wall() == Wall::None {
         super::complain(
             "note: neither bubblewrap nor unshare works here, so nothing but a filter of system \

@@ -86,7 +86,7 @@ fn is_called_packed(path: &Path) -> bool {
 
 /// A class.
 #[derive(Default)]
-pub struct Class {
+pub struct StudentsIn {
     /// The folder with the submissions.
     pub folder: PathBuf,
     /// Those submissions that are classes themselves.
@@ -96,7 +96,7 @@ pub struct Class {
 /// The class in `folder`, or at the end of a chain of single folders in it, if it is one: it has no
 /// list or picture itself, but at least two folders that are not called like parts of a submission
 /// have, together more than one submission can. `Err` names both readings where it could be either.
-pub fn class_in(folder: &Path) -> Result<Option<Class>, String> {
+pub fn class_in(folder: &Path) -> Result<Option<StudentsIn>, String> {
     let (inner, is_wrapped) = innermost(folder);
     match is_class(&inner)? {
         Some(_) if is_wrapped => Err(both_readings(&inner)),
@@ -133,7 +133,7 @@ fn innermost(folder: &Path) -> (PathBuf, bool) {
     (inner, is_of_submission)
 }
 
-fn is_class(folder: &Path) -> Result<Option<Class>, String> {
+fn is_class(folder: &Path) -> Result<Option<StudentsIn>, String> {
     let children = Children::of(folder);
     let own = children.students();
     let Children { folders, lists, unlikely, pictures, .. } = children;
@@ -155,7 +155,7 @@ fn is_class(folder: &Path) -> Result<Option<Class>, String> {
     let exported: BTreeSet<_> = own.keys().filter(|name| student_in(name).is_some()).collect();
     let stems: BTreeSet<String> = files.map(|file| stem(file)).collect();
     let is_one = Ok(None);
-    let class = Ok(Some(Class { folder: folder.to_owned(), classes: classes.clone() }));
+    let class = Ok(Some(StudentsIn { folder: folder.to_owned(), classes: classes.clone() }));
     match students.len() {
         0 if exported.len() > 1 && is_exported => class,
         0 if own.len() > 1 && (stems.len() > 2 || exported.len() > 1) => Err(both_readings(folder)),

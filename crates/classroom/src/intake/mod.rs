@@ -10,7 +10,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use class::Class;
+use class::StudentsIn;
 use contents::{Contents, contents, is_named_twice};
 use folder::Found;
 use grading::picture::kinds::{self, Kind};
@@ -69,12 +69,12 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
         paths.iter().filter(|path| paths.len() == 1 || !is_litter(path)).collect();
     let class_in = |path: &&PathBuf| match folders {
         Folders::Class if path.is_dir() => {
-            Ok(Some(Class { folder: class::unwrapped(path), ..Class::default() }))
+            Ok(Some(StudentsIn { folder: class::unwrapped(path), ..StudentsIn::default() }))
         }
         Folders::Clear if path.is_dir() => class::class_in(path),
         _ => Ok(None),
     };
-    let classes: Vec<Result<Option<Class>, String>> = paths.iter().map(class_in).collect();
+    let classes: Vec<Result<Option<StudentsIn>, String>> = paths.iter().map(class_in).collect();
     let are_all = classes.iter().all(|class| matches!(class, Ok(Some(_))));
     let mut is_class_itself = Vec::new();
     for (path, class) in paths.into_iter().zip(classes) {

@@ -40,7 +40,7 @@ pub fn read(path: Option<&Path>) -> Result<Policy, CliError> {
 /// The policy in `text`, or the line where it is none and why.
 fn parse(text: &str) -> Result<Policy, (usize, String)> {
     // Without this, an array would be taken for the scores in their order.
-    let pairs: Pairs<Score> = serde_json::from_str(text).map_err(|error| {
+    let pairs: Entries<Given> = serde_json::from_str(text).map_err(|error| {
         let message = match error.classify() {
             Category::Eof => "expected '}', found the end of the file",
             Category::Data => "expected a JSON object of scores, found something else",
@@ -90,44 +90,44 @@ fn parse(text: &str) -> Result<Policy, (usize, String)> {
 }
 
 /// The keys and values of a JSON object. Others keep the last value of a key that comes twice.
-struct Pairs<V>(Vec<(String, V)>);
+struct Entries<V>(Vec<(String, V)>);
 
 /// A value of a policy.
 #[derive(serde::Deserialize)]
 #[serde(untagged)]
-enum Score {
-    Table(Pairs<Value>),
+enum Given {
+    Table(Entries<Value>),
     Other(Value),
 }
 
-impl<'de, V: Deserialize<'de>> Deserialize<'de> for Pairs<V> {
+impl<'de, V: Deserialize<'de>> Deserialize<'de> for Entries<V> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Object<V>(PhantomData<V>);
         impl<'de, V: Deserialize<'de>> Visitor<'de> for Object<V> {
-            type Value = Pairs<V>;
+            type Value = Entries<V>;
 
             fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
                 formatter.write_str("an object")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pairs<V>, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries<V>, A::Error> {
                 let mut pairs = Vec::new();
                 while let Some(pair) = map.next_entry()? {
                     pairs.push(pair);
                 }
-                Ok(Pairs(pairs))
+                Ok(Entries(pairs))
             }
         }
         deserializer.deserialize_map(Object(PhantomData))
     }
 }
 
-impl Pairs<Score> {
+impl Entries<Given> {
     /// The object, if no key in it or in a table comes twice. `Err` is that key.
     fn each_once(self) -> Result<Map<String, Value>, String> {
         let value = |(key, score)| match score {
-            Score::Table(Pairs(scores)) => Ok((key, unique(scores)?.into())),
-            Score::Other(value) => Ok((key, value)),
+            Given::Table(Entries(scores)) => Ok((key, unique(scores)?.into())),
+            Given::Other(value) => Ok((key, value)),
         };
         unique(self.0.into_iter().map(value).collect::<Result<_, String>>()?)
     }
