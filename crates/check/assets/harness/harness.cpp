@@ -3,8 +3,8 @@
 //
 //   harness PLAN FIRST END SECONDS WHOLE
 //
-// carries out the steps of the file PLAN from number FIRST to before END. A step on a small scene has SECONDS of
-// processor time, the whole run has WHOLE; SIGPROF ends what takes longer.
+// carries out the steps of the file PLAN from number FIRST to before END. A step on a small scene
+// has SECONDS of processor time, the whole run has WHOLE; SIGPROF ends what takes longer.
 //
 // A plan has one item a line:
 //

@@ -8,6 +8,7 @@ mod scattering;
 mod storage;
 mod transformation;
 mod turns;
+mod values;
 
 use serde::Serialize;
 use variants::section::Section;
