@@ -62,6 +62,13 @@ fn columns_in_another_order_are_told_whatever_their_signs() {
 }
 
 #[test]
+fn a_direction_that_is_not_transformed_is_told() {
+    let Some(report) = report(&[("glm::mat3(t, b, n) * sample", "sample")]) else { return };
+    let section = Section::HemisphereRayTransformation;
+    tells(&report, section, Some("not-transformed"), "tangent space");
+}
+
+#[test]
 fn a_constant_number_is_no_matter_of_the_frame() {
     let u1 = "u1 = (float)rand() / RAND_MAX";
     for (constant, _) in [("u1 = 0.5f", ()), ("u1 = 0.03f", ())] {

@@ -1,6 +1,6 @@
 //! Hemisphere Ray Transformation: directions over walls, and where the scattered ray starts.
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use super::SectionVerdict;
 use super::directions::{Directions, FEWEST, FrameForm, Scattered};
@@ -111,9 +111,14 @@ fn judge_frames(directions: &Directions, verdict: &mut SectionVerdict) {
     ]
     .into_iter()
     .max_by_key(|frame| unfair.iter().filter(|(_, other)| *other == Some(*frame)).count());
+    // A permuted frame may be the identity over some walls, but not over all.
+    let is_unfair = |normal: &Vec3| unfair.iter().any(|(other, _)| other == normal);
+    let mut of_unfair = directions.walls.iter().filter(|(normal, _)| is_unfair(normal));
+    let is_identity = of_unfair.all(|(_, rays)| directions.fits(rays, Mat3::IDENTITY));
+    let most = if is_identity { Some(FrameForm::None) } else { most };
     let most = most.filter(|frame| {
         let those = unfair.iter().filter(|(_, other)| *other == Some(*frame)).count();
-        2 * those > unfair.len()
+        is_identity || 2 * those > unfair.len()
     });
     let (normal, rays) = directions
         .walls
