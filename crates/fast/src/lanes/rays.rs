@@ -20,7 +20,7 @@ pub struct Rays {
     pub direction: [GroupLanes; 3],
     /// [`Ray::start_error`].
     pub start_error: GroupLanes,
-    /// [`Ray::max_t`], which only [`Hits::settle`] minds.
+    /// [`Ray::max_t`], which only `Hits::settle` minds.
     pub max_t: GroupLanes,
 }
 
