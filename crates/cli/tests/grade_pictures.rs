@@ -277,12 +277,20 @@ fn other_direct_light_is_seen_through() {
         }
     }
 
-    for factor in [0.8, 0.9, 1.1, 1.25] {
+    let scale = |factor: f64| {
         let mut scaled = plain.clone();
         for channel in scaled.pixels_mut().flat_map(|pixel| &mut pixel.0) {
             *channel = (factor * f64::from(*channel)).round().min(255.0) as u8;
         }
-        let dots = dots_of(&scaled).expect("it is the view, darker or brighter");
+        scaled
+    };
+    // Where direct light is full of red, no dot can be seen.
+    for factor in [1.5, 1.7, 2.0, 3.0] {
+        let reason = dots_of(&scale(factor)).expect_err("dots are lost");
+        assert!(reason.contains("so bright"), "{factor}: {reason}");
+    }
+    for factor in [0.8, 0.9, 1.1, 1.25] {
+        let dots = dots_of(&scale(factor)).expect("it is the view, darker or brighter");
         assert!(dots.red == red, "{factor}: other pixels");
         assert!(dots.remarks[0].found.contains("brightness"), "{:?}", dots.remarks);
     }

@@ -43,6 +43,9 @@ pub(crate) mod dots {
     /// The part of the pixels that may be neither direct light nor dot, where programs disagree on
     /// which surface is seen at its edge, or lies in shadow.
     pub(crate) const MOST_ASTRAY: f64 = 0.004;
+    /// The part of the surfaces' pixels where no dot could be seen: fewer than there are dots that
+    /// chance adds or takes.
+    pub(crate) const MOST_BLIND: f64 = 0.001;
     /// From this part on, another camera is tried.
     pub(crate) const FEW_ASTRAY: f64 = 0.0005;
     /// The part of the background that may be lit: at edges, programs disagree on what is

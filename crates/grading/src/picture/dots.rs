@@ -6,8 +6,8 @@ use image::RgbImage;
 use super::reading::WANTED;
 use super::view::{PIXELS, View};
 use crate::limits::dots::{
-    DARK, FEW_ASTRAY, FEWEST_FULL, LEAST_RAISE, MOST_ASTRAY, MOST_LIT_BACKGROUND, ROUNDING,
-    ROUNDING_OF_CURVE, SAME_VIEW,
+    DARK, FEW_ASTRAY, FEWEST_FULL, LEAST_RAISE, MOST_ASTRAY, MOST_BLIND, MOST_LIT_BACKGROUND,
+    ROUNDING, ROUNDING_OF_CURVE, SAME_VIEW,
 };
 use crate::verdict::Finding;
 
@@ -35,6 +35,8 @@ enum Style {
 struct Attempt {
     red: Vec<bool>,
     astray: usize,
+    /// How many pixels of surfaces are full of red without a dot, so that none could show there.
+    blind: usize,
     remark: Option<(&'static str, String)>,
 }
 
@@ -76,6 +78,13 @@ pub fn find_dots<'a>(
             .find(|attempt| is_few(attempt, MOST_ASTRAY))
             .ok_or_else(|| reason(pixels, view, best.astray as f64 / surface))?;
         is_shifted = false;
+    }
+    if best.blind as f64 > MOST_BLIND * surface {
+        return Err(format!(
+            "it is so bright that {} pixels are full of red without a dot, where none can be seen: \
+             {WANTED}",
+            best.blind
+        ));
     }
     // Only red may show where no surface does: a photon that is near everything is near nothing,
     // too.
@@ -162,7 +171,7 @@ fn take_apart(pixels: &[[u8; 3]], view: &View) -> Attempt {
                 Some(("dot color", format!("dots that replace the color by ({r}, {g}, {b})")))
             }
         };
-        Attempt { red, astray, remark }
+        Attempt { red, astray, blind: 0, remark }
     });
     // The first of those that leave as little: the framework's before others.
     attempts.min_by_key(|attempt| attempt.astray).expect("the framework's style is among them")
@@ -177,7 +186,7 @@ fn without_direct_light(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     let red: Vec<bool> = (0..PIXELS).map(|at| view.shows_surface(at) && is_dot(at)).collect();
     let astray = surface().filter(|at| !is_dot(*at) && !is_black(*at)).count();
     let remark = Some(("direct light", "none: all but the dots is black".to_owned()));
-    Some(Attempt { red, astray, remark })
+    Some(Attempt { red, astray, blind: 0, remark })
 }
 
 /// Dots over direct light whose channels all went through one curve, which green and blue tell,
@@ -220,16 +229,16 @@ fn with_curve(pixels: &[[u8; 3]], view: &View) -> Option<Attempt> {
     let mut counts = [0; 256];
     surface().for_each(|at| counts[usize::from(pixels[at][0])] += 1);
     let full = counts.iter().rposition(|count| *count >= FEWEST_FULL).unwrap_or(255) as u8;
-    let is_full = |at: &usize| {
-        pixels[*at][0].abs_diff(full) <= ROUNDING_OF_CURVE
-            && full.saturating_sub(expected(*at, 0)) > 2 * ROUNDING_OF_CURVE
-    };
+    let is_blind = |at: &usize| full.saturating_sub(expected(*at, 0)) <= 2 * ROUNDING_OF_CURVE;
+    let is_full = |at: &usize| pixels[*at][0].abs_diff(full) <= ROUNDING_OF_CURVE && !is_blind(at);
     let mut red = vec![false; PIXELS];
     surface().filter(is_full).for_each(|at| red[at] = true);
     let is_astray = |at: &usize| is_off(*at, 1) || is_off(*at, 2) || (!red[*at] && is_off(*at, 0));
     let astray = surface().filter(is_astray).count();
     let found = "all colors changed by a curve, such as a gamma or a brightness".to_owned();
-    Some(Attempt { red, astray, remark: Some(("direct light", found)) })
+    // Without dots, the brightest is direct light.
+    let blind = if full == 255 { surface().filter(is_blind).count() } else { 0 };
+    Some(Attempt { red, astray, blind, remark: Some(("direct light", found)) })
 }
 
 /// What `curve`, which is known at some values only, makes of `value`: between two that are known
