@@ -11,10 +11,13 @@ mod numbers;
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3};
-use grading::judge_list::{Expectations, Judgment, SIGNIFICANCE, judge};
+use grading::expected::Expected;
+use grading::judge_list::{
+    Expectations, Judgment, RATE_OF_WAYS, SIGNIFICANCE, judge, rate_to_find,
+};
 use grading::observation::observe;
 use grading::places::{Place, Places};
-use grading::signature::Signatures;
+use grading::signature::{Signature, Signatures};
 use limit::best_test;
 use numbers::{Drand48, FifteenBits, Settings, halton, strata, stratified};
 use photon_list::reader::PhotonList;
@@ -64,6 +67,7 @@ fn main() {
         return;
     }
     detection(seeds, &only, &expectations, &with_small_limit);
+    cost_of_power(&expectations);
     if only.is_empty() && seeds > 0 {
         two_at_once(seeds, &expectations);
     }
@@ -314,6 +318,50 @@ fn limit(id: &str, size: u64, content: Content, expectations: &Expectations) -> 
         })
         .collect();
     (!powers.is_empty()).then(|| powers.iter().sum::<f64>() / powers.len() as f64)
+}
+
+/// What it would cost to find nearly as many lists as the best tests, each of which looks for one
+/// misreading.
+fn cost_of_power(expectations: &Expectations) {
+    let signatures = &expectations.signatures;
+    let shows = |id: &str| id != "bounce-off-by-one";
+    let known: Vec<_> =
+        signatures.misreadings.iter().filter(|known| shows(known.hypothesis.id)).collect();
+    println!("## What more would cost\n");
+    println!(
+        "The best test looks for one misreading. The judge looks for {} ways to make one. To find \
+         nearly as many as the best tests, it would call so many of 100,000 correct lists \
+         incorrect. Allowed are {:.0}.\n",
+        known.len(),
+        RATE_OF_WAYS * 1e5
+    );
+    println!("| emitted | positions alone | and the number emitted |");
+    println!("|---|---|---|");
+    let none = vec![0.0; expectations.places.cells];
+    for size in SIZES.map(|size| size as f64) {
+        let fair = signatures.fair[0].signature.of_cells(&signatures.correlation, &none, size);
+        let rates = [true, false].map(|is_free| {
+            let means = |it: &Signature| it.cells.iter().map(|mean| mean * size).collect();
+            let means = known.iter().map(|known| means(&known.signature)).collect();
+            1e5 * rate_to_find_all(&fair, means, is_free)
+        });
+        println!("| {size} | {:.1} | {:.1} |", rates[0], rates[1]);
+    }
+    println!();
+}
+
+/// How often correct submissions would be called incorrect if the test of each misreading, of which
+/// `means` has the counts, found nearly as many as the best one. They are held against `fair`,
+/// what a fair reading leaves.
+fn rate_to_find_all(fair: &Expected, means: Vec<Vec<f64>>, is_free: bool) -> f64 {
+    let law = fair.law(is_free);
+    let all = |counts: &[f64]| counts.iter().sum::<f64>();
+    let scaled = means.into_iter().map(|mut means| {
+        let factor = if is_free { all(&fair.mean) / all(&means).max(1.0) } else { 1.0 };
+        means.iter_mut().for_each(|mean| *mean *= factor);
+        means
+    });
+    law.towards(&fair.mean, scaled).map(|(_, length)| rate_to_find(length)).sum()
 }
 
 /// Lists in which two misreadings were made, which no single name tells.

@@ -11,7 +11,7 @@ use super::evidence::Evidence as _;
 use super::facts::{ENOUGH_PHOTONS, SPREAD, enough, plain_findings, remarks};
 use super::few::StoredByPaths;
 use super::limits::MOSTLY;
-pub use super::limits::SIGNIFICANCE;
+pub use super::limits::{RATE_OF_WAYS, SIGNIFICANCE};
 use super::list::OfList;
 use super::naming::Explanation;
 use super::number::other_number;
@@ -21,6 +21,7 @@ use super::places::Places;
 use super::recognized::not_recognized;
 use super::signature::{Known, Signature, Signatures};
 use super::trial::best_trial;
+pub use super::trial::rate_to_find;
 use super::verdict::Finding;
 use variants::hypotheses::Hypothesis;
 

@@ -184,19 +184,22 @@ fn part<E: Evidence>(
 /// its test finds nearly as many lists as the best one for it alone: for what plainly shows, next
 /// to nothing.
 fn strangest_way(ways: Vec<(f64, f64)>) -> (f64, f64) {
-    let best_line = normal_quantile(SIGNIFICANCE);
-    let need = |length: f64| {
-        let found_by_best = normal_tail(best_line - length);
-        let line = length + normal_quantile(POWER_KEPT * found_by_best);
-        if found_by_best < LEAST_POWER { 0.0 } else { normal_tail(line).max(LEAST_OF_WAY) }
-    };
-    let needs: Vec<f64> = ways.iter().map(|(_, length)| need(*length)).collect();
+    let needs: Vec<f64> = ways.iter().map(|(_, length)| rate_to_find(*length)).collect();
     let unit = RATE_OF_WAYS / needs.iter().sum::<f64>();
     let tested = ways.iter().zip(needs).filter(|(_, need)| *need > 0.0);
     let p_values = tested.map(|((deviations, _), need)| {
         (*deviations, SIGNIFICANCE * normal_tail(*deviations) / (unit * need))
     });
     p_values.fold((0.0, 1.0), |a, b| if b.1 < a.1 { b } else { a })
+}
+
+/// How often the test of one misreading, `length` standard deviations from a fair reading, would
+/// have to call correct lists incorrect to find [`POWER_KEPT`] of what the best one for it alone
+/// finds: zero where that one hardly finds any.
+pub fn rate_to_find(length: f64) -> f64 {
+    let found_by_best = normal_tail(normal_quantile(SIGNIFICANCE) - length);
+    let line = length + normal_quantile(POWER_KEPT * found_by_best);
+    if found_by_best < LEAST_POWER { 0.0 } else { normal_tail(line).max(LEAST_OF_WAY) }
 }
 
 /// The means by cell under `other` for `emitted` photons, or, if their number is free, for as many

@@ -31,7 +31,7 @@ pub(crate) const SUREST: f64 = 0.999;
 pub(crate) const LEAST_LIKELY_SLIP: f64 = 0.02;
 /// A correct submission is called incorrect on its way to one of the misreadings, each of which has
 /// a test, as often as this.
-pub(crate) const RATE_OF_WAYS: f64 = 2e-5;
+pub const RATE_OF_WAYS: f64 = 2e-5;
 /// Before all are fitted into that, one of them has at least this: 5.6 standard deviations, which
 /// nothing that is farther away fails to reach.
 pub(crate) const LEAST_OF_WAY: f64 = 1e-8;
