@@ -3,6 +3,7 @@
 mod architecture;
 mod commands;
 mod computed;
+mod grader;
 mod links;
 mod markdown;
 mod measured;
