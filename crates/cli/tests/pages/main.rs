@@ -8,6 +8,7 @@ mod markdown;
 mod measured;
 mod numbers;
 mod release;
+mod speed;
 #[path = "../support/mod.rs"]
 mod support;
 mod words;
