@@ -4,6 +4,7 @@
 Run it from the root of a clone, on Unix, after
 cargo build --release -p photon-mapping-toolkit && cargo build --release --example golden_check
 """
+import json
 import os
 import pathlib
 import statistics
@@ -11,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import room
 
 RENDER = [str(pathlib.Path("target/release/photon-mapping").absolute()), "render", "--quiet"]
 PORT = [str(pathlib.Path("target/release/examples/golden_check").absolute())]
@@ -40,6 +43,32 @@ def together(command, count):
     if any([process.wait() for process in runs]):
         sys.exit(f"{command} failed")
     return time.monotonic() - start
+
+
+def rooms(folder, keep):
+    """The same photons in rooms of few and of many triangles."""
+    photons = 4 * MILLION
+    model = pathlib.Path(folder, "room.obj")
+    command = RENDER + ["--scene", str(model), "--light", room.LIGHT]
+    few = command + ["--count-only", "--photons"]
+    # Lanes trace the first room. The tree of the second fits the caches.
+    for edge in (2, 3, 177):
+        name = f"room of {room.write(model, edge)} triangles"
+        summary = json.loads(subprocess.check_output(few + ["1000000", "--json"]))
+        # No photon leaves the room, and all of its hits but the first are stored.
+        keep(f"{name}: rays a photon", [1 + summary["stored"] / summary["emitted"]])
+        commands = [
+            few + ["1"],
+            few + [str(photons)],
+            command + ["--photons", str(photons), "--out", folder],
+        ]
+        reading, *kinds = zip(*([run(command) for command in commands] for _ in range(5)))
+        keep(f"{name}: read and build (s)", [seconds for _, seconds, _ in reading])
+        for kind, runs in zip(("count only", "list and picture"), kinds):
+            pairs = zip(runs, reading)
+            a_photon = [1e9 * (run[1] - reading[1]) / photons for run, reading in pairs]
+            keep(f"{name}: {kind} (ns a photon)", a_photon)
+            keep(f"{name}: {kind} (MB)", [memory for *_, memory in runs])
 
 
 def main():
@@ -73,6 +102,7 @@ def main():
             size = sum(file.stat().st_size for file in pathlib.Path(folder).iterdir())
             keep(f"{photons} photons: on disk (MB)", [size / 1e6])
         keep("the port (s)", [run(PORT, 1)[1] for _ in range(11)])
+        rooms(folder, keep)
     lines = [",".join(row) for row in [["what", "median", "least", "greatest", "runs"], *rows]]
     results = pathlib.Path("crates/fast/benches/results/program.csv")
     results.write_text("\n".join(lines) + "\n")

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Measures everything that docs/speed.md shows, and keeps it in results/. Needs what peers/run.sh
-# needs. On a busy machine: chrt -f 10 crates/fast/benches/run.sh
+# and instructions.py need. On a busy machine: chrt -f 10 crates/fast/benches/run.sh
 set -eu
 cd "$(dirname "$0")/../../.."
 benches=crates/fast/benches
@@ -10,3 +10,4 @@ cargo bench -p photon-mapping-fast --bench stages >"$benches/results/stages.txt.
 mv "$benches/results/stages.txt.new" "$benches/results/stages.txt"
 python3 "$benches/program.py"
 "$benches/peers/run.sh"
+python3 "$benches/instructions.py"

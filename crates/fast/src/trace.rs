@@ -13,6 +13,9 @@ use crate::lanes::width::Width;
 
 /// How many photons a thread traces before it takes the next piece.
 pub const PIECE: u64 = 16_384;
+/// How many photons the port traces before their part of the photon map is forgotten. The map of a
+/// whole piece would not fit the caches, and its memory would be asked for anew each time.
+const PORT_PIECE: u64 = 256;
 /// How many groups of photons are traced by the port too, spread evenly over the run.
 const CHECKED_GROUPS: u64 = 64;
 /// How many photons a group has.
@@ -66,16 +69,25 @@ pub fn trace_list<E: Send>(
 
 /// `photons` in pieces that a thread traces at once.
 pub fn pieces(photons: &Range<u64>) -> impl Iterator<Item = Range<u64>> + Send + use<> {
-    let Range { start, end } = *photons;
-    (start..end).step_by(PIECE as usize).map(move |start| start..end.min(start + PIECE))
+    in_pieces_of(PIECE, photons)
+}
+
+fn in_pieces_of(
+    size: u64,
+    &Range { start, end }: &Range<u64>,
+) -> impl Iterator<Item = Range<u64>> + Send + use<> {
+    (start..end).step_by(size as usize).map(move |start| start..end.min(start + size))
 }
 
 /// Traces the photons numbered `photons` with `trace_photon`, on this thread.
 pub fn trace_with_port(renderer: &PhotonMappingRenderer, photons: Range<u64>) -> Vec<PhotonRecord> {
-    let mut list = Vec::new();
-    renderer.generic_photon_map_generation(&mut Vec::new(), photons, |photon, path, stored| {
-        list.extend(records(&renderer.stored_scene, photon, path, stored));
-    });
+    let (mut list, mut photon_map) = (Vec::new(), Vec::new());
+    for piece in in_pieces_of(PORT_PIECE, &photons) {
+        photon_map.clear();
+        renderer.generic_photon_map_generation(&mut photon_map, piece, |photon, path, stored| {
+            list.extend(records(&renderer.stored_scene, photon, path, stored));
+        });
+    }
     list
 }
 

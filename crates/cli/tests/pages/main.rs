@@ -9,6 +9,7 @@ mod markdown;
 mod measured;
 mod numbers;
 mod release;
+mod speed;
 #[path = "../support/mod.rs"]
 mod support;
 mod words;

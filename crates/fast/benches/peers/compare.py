@@ -23,13 +23,15 @@ def main():
     parser.add_argument("--ours", required=True, help="the program of benches/peers.rs")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--photons", type=int, default=4_000_000)
-    parser.add_argument("--triangles", type=int, default=1_000_000)
+    parser.add_argument("--triangles", type=int, nargs="+", default=[5_000, 60_000, 1_000_000])
     parser.add_argument("--rays", type=int, default=500_000)
     arguments = parser.parse_args()
     print(f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, {processor()}, {os.cpu_count()} cores")
     print(f"median [least .. greatest] of {arguments.rounds} rounds")
     photons(arguments)
-    mesh(arguments)
+    for triangles in arguments.triangles:
+        builds = mesh(arguments, triangles)
+    report("its build", "s", "Embree", builds)
 
 
 def processor():
@@ -80,10 +82,10 @@ def photons(arguments):
         report(f"photon, {threads} thread(s)", "ns", "Mitsuba", rounds)
 
 
-def mesh(arguments):
+def mesh(arguments, triangles):
     import embree_mesh
 
-    corners, origins, directions = embree_mesh.mesh_and_rays(arguments.triangles, arguments.rays)
+    corners, origins, directions = embree_mesh.mesh_and_rays(triangles, arguments.rays)
     embree = embree_mesh.Embree(corners)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh")
@@ -101,7 +103,7 @@ def mesh(arguments):
             rounds.append((time_ours, time_theirs * 1e9))
             builds.append((build, embree.build_seconds))
     report(f"closest hit, {len(corners)} triangles", "ns", "Embree", rounds)
-    report("its build", "s", "Embree", builds)
+    return builds
 
 
 def report(what, unit, peer, rounds):
