@@ -33,7 +33,7 @@ impl<D: FnMut(Stage, usize)> Wave<'_, D> {
         self.tracer.width.run(EmitAgain { seed, photons, emission: &mut emission });
         for lane in 0..count {
             if emission.drawn[lane] == 0 {
-                // Of 2000 photons, one.
+                // Very few photons get here.
                 let EmittedPhoton { point, draws } = emit_one(seed, photons[lane]);
                 for (column, coordinate) in emission.point.iter_mut().zip(point) {
                     column[lane] = coordinate;
