@@ -6,36 +6,35 @@
 //! does not tell whether a branch is taken.
 
 mod branches;
+pub mod html;
 mod steps;
 
 use std::collections::BTreeMap;
-
-use serde::Serialize;
 
 use branches::Arm;
 use steps::{FUNCTIONS, LitLines, PortPart, PortStep, SECTIONS, STEPS};
 
 /// A function of the port as it stands in its file.
-#[derive(Debug, Serialize)]
-struct FoundFunction {
+#[derive(Debug)]
+pub struct FoundFunction {
     name: &'static str,
     file: &'static str,
     /// The number of its first line in the file, from 1.
     first: usize,
     /// Its lines, without the indentation that all have.
-    lines: Vec<String>,
-    branches: Vec<Arm>,
+    pub lines: Vec<String>,
+    pub branches: Vec<Arm>,
 }
 
 /// A step with its lines.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 struct FoundStep {
     short: &'static str,
     title: &'static str,
     parts: Vec<FoundPart>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 struct FoundPart {
     function: usize,
     /// The first and the last line lit, counted from the function's first line.
@@ -44,9 +43,9 @@ struct FoundPart {
 }
 
 /// The port's functions, and where each step is in them, by its name.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct PortSource {
-    functions: Vec<FoundFunction>,
+    pub functions: Vec<FoundFunction>,
     steps: BTreeMap<&'static str, FoundStep>,
 }
 
