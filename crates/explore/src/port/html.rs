@@ -2,21 +2,21 @@
 //! have a place, and lines that depend on a condition name it as their class.
 
 use super::branches::Arm;
+use super::steps::PortStep;
 use super::{FoundFunction, FoundPart, PortSource};
 
 /// A template for each step of `source`.
 pub fn templates(source: &PortSource) -> String {
-    let mut html = String::new();
-    for (name, step) in &source.steps {
-        let figures = step.parts.iter().map(|part| figure(&source.functions[part.function], part));
+    let template = |(step, parts): &(&PortStep, Vec<FoundPart>)| {
+        let PortStep { name, short, section, .. } = step;
+        let figures = parts.iter().map(|part| figure(&source.functions[part.function], part));
         let figures: String = figures.collect();
-        let (short, title) = (step.short, step.title);
-        html += &format!(
-            "<template id=\"code-{name}\" data-short=\"{short}\" title=\"{title}\">{figures}\
+        format!(
+            "<template id=\"code-{name}\" data-short=\"{short}\" title=\"{section}\">{figures}\
              </template>\n"
-        );
-    }
-    html
+        )
+    };
+    source.steps.iter().map(template).collect()
 }
 
 fn figure(function: &FoundFunction, part: &FoundPart) -> String {
