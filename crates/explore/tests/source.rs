@@ -49,8 +49,8 @@ fn a_missing_step_comment_is_named() {
 #[test]
 fn a_line_without_its_value_is_named() {
     let message = error("let probability_of_reflection", "let p");
-    let expected = "expected a line with 'let probability_of_reflection = ' for the step 'roulette' \
-                    of 'trace_photon'";
+    let expected = "expected a line with 'let probability_of_reflection = ' for the step \
+                    'roulette' of 'trace_photon'";
     assert!(message.ends_with(expected), "{message}");
 }
 
