@@ -18,8 +18,8 @@ fn main() {
     match port::find(read) {
         Ok(source) => {
             let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo"));
-            let json = serde_json::to_string(&source).expect("strings and numbers are JSON");
-            fs::write(out.join("source.json"), json).expect("OUT_DIR can be written");
+            let html = port::html::templates(&source);
+            fs::write(out.join("code.html"), html).expect("OUT_DIR can be written");
         }
         Err(error) => {
             println!("cargo::error=explore shows the port's source, but {error}");

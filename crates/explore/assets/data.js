@@ -53,104 +53,81 @@ function photonRandom(seed, photon) {
   };
 }
 
-/** A run of the reference: its paths, all dots, and the story of each path. */
-class Run {
-  constructor(meta, columns) {
-    Object.assign(this, meta, meta.scene, columns);
-    this.paths = this.pathHits.length;
-    // For each path: its photon, and where its hits, stored photons and directions begin.
-    this.photons = new Uint32Array(this.paths);
-    this.firstHit = new Uint32Array(this.paths);
-    this.firstStored = new Uint32Array(this.paths);
-    this.firstScattered = new Uint32Array(this.paths);
-    this.dots = this.allDots(columns);
-    const { photon, bounce, surface, normal } = this.dots;
-    let [number, hit, stored, absorbed] = [0, 0, 0, 0];
-    for (let path = 0; path < this.paths; path++) {
-      this.photons[path] = number += this.pathPhoton[path];
-      this.firstHit[path] = hit;
-      this.firstStored[path] = stored;
-      this.firstScattered[path] = hit - absorbed;
-      for (let at = 1; at < this.pathHits[path]; at++, stored++) {
-        const face = this.faces[this.hitFace[hit + at]];
-        [photon[stored], bounce[stored], surface[stored]] = [number, at, face.surface];
-        normal.set(scale(face.normal, 127), 3 * stored);
-      }
-      hit += this.pathHits[path];
-      absorbed += this.pathEnding[path] === 0;
+/** Each path of `run`: its photon, how many hits it has, and where its hits, its stored photons and
+ * its directions begin in their columns. */
+function* pathsOf({ pathPhoton, pathHits, pathEnding }) {
+  let [photon, hit, dot, direction] = [0, 0, 0, 0];
+  for (let path = 0; path < pathHits.length; path++) {
+    const hits = pathHits[path];
+    photon += pathPhoton[path];
+    yield { path, photon, hits, hit, dot, direction };
+    hit += hits;
+    dot += Math.max(hits - 1, 0);
+    direction += hits - (pathEnding[path] === 0);
+  }
+}
+
+/** A run of the reference. Its `dots` are the stored photons, then those that another list moved,
+ * then the extra ones of that list. */
+function unpack({ scene, ...meta }, columns) {
+  const run = { ...meta, ...scene, ...columns };
+  const { positions: position, kind, movedIndex, extraPhoton, extraBounce, extraSurface } = run;
+  const count = position.length / 3, firstExtra = count - extraPhoton.length;
+  const stored = firstExtra - movedIndex.length;
+  const photon = new Uint32Array(count), bounce = new Uint16Array(count);
+  const surface = new Uint16Array(count), normal = new Int8Array(3 * count);
+  const dots = { count, position, kind, photon, bounce, surface, normal };
+  const normals = run.faces.map((face) => scale(face.normal, 127));
+  run.paths = [...pathsOf(run)];
+  for (const path of run.paths)
+    for (let at = 1, dot = path.dot; at < path.hits; at++, dot++) {
+      const face = run.hitFace[path.hit + at];
+      [photon[dot], bounce[dot], surface[dot]] = [path.photon, at, run.faces[face].surface];
+      normal.set(normals[face], 3 * dot);
     }
-    this.movedIndex.forEach((index, k) => {
-      for (const column of [photon, bounce, surface]) column[stored + k] = column[index];
-    });
+  const others = [[photon, extraPhoton], [bounce, extraBounce], [surface, extraSurface]];
+  for (const [column, extra] of others) {
+    column.set(movedIndex.map((index) => column[index]), stored);
+    column.set(extra, firstExtra);
   }
+  return { ...run, dots, stored, firstExtra, place: (dot) => vectorOf(position, dot) };
+}
 
-  /** Columns of all dots: the stored photons, then those that another list moved, then its extra
-   * ones. Theirs are filled here, and those of the others when the paths are known. */
-  allDots({ positions, kind = [], movedIndex = [], moved = [], extra = [], ...columns }) {
-    this.movedIndex = movedIndex;
-    this.stored = positions.length / 3;
-    this.firstExtra = this.stored + movedIndex.length;
-    const count = this.firstExtra + extra.length / 3;
-    const column = (Type, ofExtra = [], size = 1) => {
-      const all = new Type(size * count);
-      all.set(ofExtra, size * this.firstExtra);
-      return all;
-    };
-    const dots = {
-      count,
-      position: column(Float32Array, extra, 3),
-      photon: column(Uint32Array, columns.extraPhoton),
-      bounce: column(Uint16Array, columns.extraBounce),
-      surface: column(Uint16Array, columns.extraSurface),
-      normal: column(Int8Array, [], 3),
-      kind: column(Uint8Array),
-    };
-    dots.position.set(positions);
-    dots.position.set(moved, 3 * this.stored);
-    dots.kind.set(kind);
-    dots.kind.fill(2, this.stored, this.firstExtra).fill(3, this.firstExtra);
-    return dots;
-  }
-
-  place(dot) {
-    return vectorOf(this.dots.position, dot);
-  }
-
-  /** The story of path `path`: what `explain --json` prints. */
-  story(path) {
-    const rand = photonRandom(this.seed, this.photons[path]);
-    const tries = [];
-    let square;
-    do {
-      tries.push([rand(), rand(), rand()].map((u) => 2 * u - 1));
-      square = lengthSquared(tries.at(-1));
-    } while (square > 1 || square === 0);
-    const light = this.lights[this.pathLight[path]];
-    const count = this.pathHits[path];
-    const ending = ["absorbed", "left_the_scene", "bounce_limit"][this.pathEnding[path]];
-    // In f32, as Rust computes them; Rust packs them where this would give other bits.
-    const by = round(1 / round(Math.sqrt(square)));
-    const direction = this.emission
-      ? vectorOf(this.emission, path) : tries.at(-1).map((x) => round(x * by));
-    const hits = Array.from({ length: count }, (_, bounce) => {
-      const at = this.firstHit[path] + bounce, t = this.hitT[at];
-      const face = this.faces[this.hitFace[at]];
-      const { name: surface, survival, diffuse } = this.surfaces[face.surface];
-      const stored = bounce > 0;
-      const position = stored ? vectorOf(this.positions, this.firstStored[path] + bounce - 1)
-        : this.direct ? vectorOf(this.direct, path)
-        : light.position.map((x, i) => round(x + round(t * direction[i])));
-      const scattered = bounce + 1 < count || ending !== "absorbed";
-      const hit = { bounce, face, surface, survival, diffuse, t, position, stored, scattered };
-      hit.roulette = rand();
-      if (scattered) {
-        [hit.u1, hit.u2] = [rand(), rand()];
-        hit.direction = vectorOf(this.scattered, this.firstScattered[path] + bounce);
-      }
-      return hit;
-    });
-    return { light, tries, direction, hits, ending };
-  }
+/** The story of `photon`, as `explain --json` prints it; nothing if the page does not have it. */
+function storyOf(run, photon) {
+  const found = run.paths.find((path) => path.photon === photon);
+  if (!found) return null;
+  const { path, hits: count } = found;
+  const rand = photonRandom(run.seed, photon);
+  const tries = [];
+  let square;
+  do {
+    tries.push([rand(), rand(), rand()].map((u) => 2 * u - 1));
+    square = lengthSquared(tries.at(-1));
+  } while (square > 1 || square === 0);
+  const light = run.lights[run.pathLight[path]];
+  const ending = ["absorbed", "left_the_scene", "bounce_limit"][run.pathEnding[path]];
+  // In f32, as Rust computes them; Rust packs them where this would give other bits.
+  const by = round(1 / round(Math.sqrt(square)));
+  const direction = run.emission
+    ? vectorOf(run.emission, path) : tries.at(-1).map((x) => round(x * by));
+  const hits = Array.from({ length: count }, (_, bounce) => {
+    const at = found.hit + bounce, t = run.hitT[at], face = run.faces[run.hitFace[at]];
+    const { name: surface, survival, diffuse } = run.surfaces[face.surface];
+    const stored = bounce > 0;
+    const position = stored ? run.place(found.dot + bounce - 1)
+      : run.direct ? vectorOf(run.direct, path)
+      : light.map((x, i) => round(x + round(t * direction[i])));
+    const scattered = bounce + 1 < count || ending !== "absorbed";
+    const hit = { bounce, face, surface, survival, diffuse, t, position, stored, scattered };
+    hit.roulette = rand();
+    if (scattered) {
+      [hit.u1, hit.u2] = [rand(), rand()];
+      hit.direction = vectorOf(run.scattered, found.direction + bounce);
+    }
+    return hit;
+  });
+  return { light, tries, direction, hits, ending };
 }
 
 const vectorOf = (column, index) => [...column.subarray(3 * index, 3 * index + 3)];
@@ -158,16 +135,9 @@ const round = Math.fround;
 /** x2 + y2 + z2 in f32, in the port's order. */
 const lengthSquared = ([x, y, z]) => round(round(round(x * x) + round(y * y)) + round(z * z));
 
+const FORMATS = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((maximumSignificantDigits) =>
+  new Intl.NumberFormat("en-US", { maximumSignificantDigits, useGrouping: false }));
 /** An f32 with as few digits as bring back the same bits, as Rust prints it. */
-function digits(x) {
-  if (!Number.isFinite(x)) return Number.isNaN(x) ? "NaN" : x > 0 ? "inf" : "-inf";
-  if (x === 0) return Object.is(x, -0) ? "-0" : "0";
-  let precision = 1;
-  while (round(Number(x.toPrecision(precision))) !== x) precision++;
-  const short = Number(x.toPrecision(precision));
-  const exponent = Number(short.toExponential().split("e")[1]);
-  return exponent < -6 || exponent > 20
-    ? short.toFixed(Math.max(precision - 1 - exponent, 0)) : String(short);
-}
+const digits = (x) => FORMATS.map((format) => format.format(x)).find((text) => round(text) === x);
 const vectorText = (xyz) => `(${xyz.map(digits).join(", ")})`;
 const thousands = (count) => count.toLocaleString("en-US");

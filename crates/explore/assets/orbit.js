@@ -4,41 +4,33 @@
  * double-click. */
 function orbit(view, onClick, onCenter) {
   const { canvas } = view;
-  const pointers = new Map();
+  /** The last event of each finger, or of the mouse. */
+  const fingers = new Map();
   let moved = 0;
-  const turn = (dx, dy) => view.look({ yaw: view.camera.yaw + dx, pitch: view.camera.pitch - dy });
-  const zoom = (by) => {
-    const { distance, size } = view.camera;
-    view.look({ distance: clamp(distance * by, size / 500, size * 20) });
-  };
   const spread = () => {
-    const [a, b] = [...pointers.values()];
-    return b ? Math.hypot(a.x - b.x, a.y - b.y) : null;
+    const [a, b] = fingers.values();
+    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
   };
-  canvas.onpointerdown = ({ pointerId, offsetX: x, offsetY: y }) => {
-    canvas.setPointerCapture(pointerId);
-    pointers.set(pointerId, { x, y });
-    if (pointers.size === 1) moved = 0;
+  canvas.onpointerdown = (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    if (fingers.size === 0) moved = 0;
+    fingers.set(event.pointerId, event);
   };
-  canvas.onpointermove = ({ pointerId, offsetX: x, offsetY: y }) => {
-    const pointer = pointers.get(pointerId);
-    if (!pointer) return;
-    const before = spread();
-    const [dx, dy] = [x - pointer.x, y - pointer.y];
-    Object.assign(pointer, { x, y });
+  canvas.onpointermove = (event) => {
+    const last = fingers.get(event.pointerId);
+    if (!last) return;
+    const before = fingers.size > 1 && spread();
+    fingers.set(event.pointerId, event);
+    const [dx, dy] = [event.clientX - last.clientX, event.clientY - last.clientY];
     moved += Math.abs(dx) + Math.abs(dy);
-    if (before) zoom(before / spread());
-    else turn(dx * 0.006, dy * 0.006);
+    if (before) view.move(0, 0, before / spread());
+    else view.move(dx * 0.006, dy * 0.006);
   };
-  canvas.onpointercancel = ({ pointerId }) => pointers.delete(pointerId);
-  canvas.onpointerup = ({ pointerId, offsetX, offsetY }) => {
-    const isClick = pointers.size === 1 && moved <= 6;
-    if (pointers.delete(pointerId) && isClick) onClick(offsetX, offsetY);
-  };
+  canvas.onpointerup = canvas.onpointercancel = ({ pointerId }) => fingers.delete(pointerId);
+  canvas.onclick = ({ offsetX, offsetY }) => moved > 6 || onClick(offsetX, offsetY);
   canvas.ondblclick = ({ offsetX, offsetY }) => onCenter(offsetX, offsetY);
   canvas.onwheel = (event) => {
     event.preventDefault();
-    zoom(Math.exp(event.deltaY * 0.0012));
+    view.move(0, 0, Math.exp(event.deltaY * 0.0012));
   };
-  return { turn, zoom };
 }

@@ -1,8 +1,7 @@
 // The box in 3-D: its colors, its shapes, and the programs of the graphics card.
 
 /** The names of all colors, in the order of the shader's palette. The style sheet has values. */
-const COLORS =
-  "gray one two three four red missing extra moved path light ink t b n edge".split(" ");
+const COLORS = "gray one two three four red missing extra moved text light edge".split(" ");
 /** The shapes of dots, in the order of the shader's cases, as letters for legends. */
 const SHAPES = { circle: "●", square: "■", diamond: "◆", triangle: "▲", ring: "○", cross: "×" };
 /** A color and a shape as the first number of a dot's look. */
@@ -16,12 +15,12 @@ uniform mat4 camera; out vec3 at, n, c;
 void main() { at = position; n = normal; c = color; gl_Position = camera * vec4(position, 1); }`;
 const SURFACE_FRAGMENT = `#version 300 es
 precision highp float;
-in vec3 at, n, c; uniform vec3 light, air, eye; uniform float alpha, wash; out vec4 o;
+in vec3 at, n, c; uniform vec3 light, air, eye; uniform float alpha; out vec4 o;
 void main() {
   // Seen from behind, a wall does not hide the room.
   if (dot(n, eye - at) < 0.) discard;
   float lit = .35 + .65 * max(dot(normalize(n), normalize(light - at)), 0.);
-  o = vec4(mix(c * lit, air, wash), alpha);
+  o = vec4(mix(c * lit, air, .5), alpha);
 }`;
 // A dot is as wide as the cube in which the handout looks for a photon, but never too small to see.
 // It stands a little nearer than its surface, whose depth varies within the dot's pixels.
@@ -30,7 +29,7 @@ void main() {
 const DOT_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in uvec2 look;
 layout(location = 2) in vec3 normal;
-uniform mat4 camera; uniform vec3 eye, palette[16]; uniform vec2 shift;
+uniform mat4 camera; uniform vec3 eye, palette[12]; uniform vec2 shift;
 uniform float pixels, least, most, large, dim, alpha, pick;
 flat out vec4 c; flat out uint shape; flat out float wide;
 void main() {

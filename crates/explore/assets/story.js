@@ -1,10 +1,7 @@
 // The story of one photon as steps: the text, the values beside each line, the lines in the box.
 
-const ENDINGS = {
-  absorbed: "absorbed",
-  left_the_scene: "leaves the scene",
-  bounce_limit: "bounced as often as it may",
-};
+const ENDINGS =
+  { left_the_scene: "leaves the scene", bounce_limit: "bounced as often as it may" };
 const about = (x) => `about ${Number(x.toPrecision(4))}`;
 const near = (x) => `≈ ${Number(x.toPrecision(6))}`;
 const degrees = (cosine) => `${((Math.acos(clamp(cosine, -1, 1)) * 180) / Math.PI).toFixed(1)}°`;
@@ -58,14 +55,14 @@ function emissionStep({ tries, direction }) {
 }
 
 function stepsOfHit(run, story, hit) {
-  const { bounce, scattered, stored, position, direction, face } = hit;
+  const { bounce, face, scattered, stored, position, direction } = hit;
   const size = run.size * 0.13;
   /** An arrow from the hit. */
-  const arrow = (axis, color, name = color) =>
+  const arrow = (axis, color, name) =>
     ({ a: position, b: add(position, axis, size), color, width: 3, name });
   const arrows = {
-    n: arrow(face.normal, "n"), t: arrow(face.tangent, "t"), b: arrow(face.bitangent, "b"),
-    ray: direction && arrow(scale(direction, 1.5), "path", null),
+    n: arrow(face.normal, "one", "n"), t: arrow(face.tangent, "extra", "t"),
+    b: arrow(face.bitangent, "three", "b"), ray: direction && arrow(scale(direction, 1.5), "text"),
   };
   const arrival = bounce === 0 ? story.direction : story.hits[bounce - 1].direction;
   const steps = [hitStep(run, hit, arrival, arrows), storedStep(hit, arrival), rouletteStep(hit)];
@@ -116,21 +113,18 @@ function storedStep({ bounce, stored }, arrival) {
 
 function rouletteStep({ surface, diffuse, survival, roulette, scattered, face }) {
   const [u, p] = [roulette, survival].map(digits);
+  const outcome = scattered
+    ? "less, so the photon scatters"
+    : "not less, so the photon is absorbed here and its path ends";
   return {
     name: "roulette",
     say: [
       `P_r is the largest channel of the diffuse response: ${p}.`,
-      scattered
-        ? `The random number ${u} is less, so the photon scatters.`
-        : `The random number ${u} is not less, ` +
-          "so the photon is absorbed here and its path ends.",
+      `The random number ${u} is ${outcome}.`,
     ],
     values: {
-      hit_primitive: `a triangle of face ${face.facet}`,
-      hit_mesh_object: surface,
-      diffuse_response: vectorText(diffuse),
-      probability_of_reflection: p,
-      "rand()": u,
+      hit_primitive: `a triangle of face ${face.facet}`, hit_mesh_object: surface,
+      diffuse_response: vectorText(diffuse), probability_of_reflection: p, "rand()": u,
     },
     diagram: () => diagrams.roulette(roulette, survival),
   };
@@ -145,7 +139,7 @@ function hemisphereStep({ position, direction, face, u1, u2 }, size) {
   // The rim of the hemisphere, and two arcs over it.
   const arc = (alpha, place) => {
     const points = Array.from({ length: 33 }, (_, i) => world(place((Math.PI * i) / 32)));
-    return points.slice(1).map((b, i) => ({ a: points[i], b, color: "ink", alpha }));
+    return points.slice(1).map((b, i) => ({ a: points[i], b, color: "text", alpha }));
   };
   const [foot, top] = [world([x, y, 0]), world([x, y, up])];
   return {
@@ -165,9 +159,9 @@ function hemisphereStep({ position, direction, face, u1, u2 }, size) {
       ...arc(0.8, (at) => [Math.cos(2 * at), Math.sin(2 * at), 0]),
       ...arc(0.35, (at) => [Math.cos(at), 0, Math.sin(at)]),
       ...arc(0.35, (at) => [0, Math.cos(at), Math.sin(at)]),
-      { a: foot, b: top, color: "path", dash: 6 },
-      { a: position, b: foot, color: "t", width: 2.5 },
-      { a: position, b: top, color: "path", width: 3 },
+      { a: foot, b: top, color: "text", dash: 6 },
+      { a: position, b: foot, color: "extra", width: 2.5 },
+      { a: position, b: top, color: "text", width: 3 },
     ],
     diagram: () => diagrams.hemisphere(r, theta, up),
   };
@@ -185,10 +179,9 @@ function frameStep({ face, direction, u1 }, { n, t, b, ray }) {
   return {
     name: "frame",
     say: [
-      isParallel(face)
-        ? `|n · x| is ${parallel}, too close to 1: ` +
-          `n is parallel to the x axis, so ${axisName} builds t.`
-        : `|n · x| is ${parallel}, so the x axis ${axisName} builds t.`,
+      `|n · x| is ${parallel}, ` + (isParallel(face)
+        ? `too close to 1: n is parallel to the x axis, so ${axisName} builds t.`
+        : `so the x axis ${axisName} builds t.`),
       isUnit(bare)
         ? "Here n × axis has length 1 already, so normalizing t and b changes nothing."
         : `n × axis has length ${about(bare)} before it is normalized. If t and b kept this ` +

@@ -1,11 +1,15 @@
 // The box in 3-D: WebGL2 and an orbiting camera. It draws layers and knows no photon's story.
 
-const add = (a, b, by = 1) => [a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]];
+const add = (a, b, by = 1) => a.map((x, i) => x + by * b[i]);
 const scale = (a, by) => a.map((x) => x * by);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
 const unit = (a) => scale(a, 1 / (Math.hypot(...a) || 1));
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
+const DEGREES = 180 / Math.PI;
+/** So many pixels a side are looked at around a click. */
+const PICK = 25;
+/** So many dots are drawn in no time. */
+const QUICK = 20_000;
 
 /** A program of the graphics card; `set` sets those of the values that are uniforms of it. */
 function compile(gl, vertex, fragment) {
@@ -31,10 +35,6 @@ function compile(gl, vertex, fragment) {
 }
 
 class View {
-  /** So many pixels a side are looked at around a click. */
-  static PICK = 25;
-  /** So many dots are drawn in no time. */
-  static QUICK = 20_000;
   wallAlpha = 1;
   /** How opaque dots are that are not lit. */
   dim = 1;
@@ -55,15 +55,19 @@ class View {
       dots: compile(gl, DOT_VERTEX, DOT_FRAGMENT),
       lines: compile(gl, LINE_VERTEX, LINE_FRAGMENT),
     };
+    gl.enable(gl.DEPTH_TEST);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
-  /** Makes the layer `name` of `count` surfaces, dots or lines (its `kind`) from columns: arrays,
-   * and how many of their numbers an entry has. An entry is a vertex, or one line. */
-  setLayer(name, kind, count, columns) {
+  /** Makes the layer `name` of surfaces, dots or lines (its `kind`) from columns: arrays, and how
+   * many of their numbers an entry has. An entry is a vertex, or one line. A dot has a position, a
+   * look and perhaps the normal of its face. A look is a color and a shape, then 0 hidden, 1 plain,
+   * 2 lit or 3 large. */
+  setLayer(name, kind, columns) {
     const { gl } = this;
     const layer = (this.layers[name] ??= { kind, vao: gl.createVertexArray(), buffers: [] });
-    layer.count = count;
+    layer.count = columns[0][0].length / columns[0][1];
     gl.bindVertexArray(layer.vao);
     columns.forEach(([array, size], index) => {
       const buffer = (layer.buffers[index] ??= { id: gl.createBuffer() });
@@ -77,30 +81,22 @@ class View {
       else gl.vertexAttribPointer(index, size, type, true, 0, 0);
       gl.vertexAttribDivisor(index, kind === "lines" ? 1 : 0);
     });
-    gl.bindVertexArray(null);
     this.draw();
-  }
-
-  /** Shows dots at `positions`. A look is a palette entry and a shape, then 0 hidden, 1 plain,
-   * 2 lit or 3 large. `normals` has the normals of the dots' faces in signed bytes. */
-  setDots(positions, looks, normals) {
-    const columns = [[positions, 3], [looks, 2], [normals, 3]];
-    this.setLayer("dots", "dots", looks.length / 2, columns);
   }
 
   /** Draws larger dots over all others: of {at, color, shape}. */
   setMarks(marks) {
-    const places = new Float32Array(marks.flatMap(({ at }) => [...at]));
-    const looks = new Uint8Array(marks.flatMap(({ color, shape }) => [look(color, shape), 1]));
-    this.setLayer("marks", "dots", marks.length, [[places, 3], [looks, 2]]);
+    const looks = marks.flatMap(({ color, shape }) => [look(color, shape), 1]);
+    const places = marks.flatMap(({ at }) => at);
+    this.setLayer("marks", "dots", [[new Float32Array(places), 3], [new Uint8Array(looks), 2]]);
   }
 
   /** Draws lines of {a, b, color, width, dash, alpha}, lengths in pixels, as the layer `name`. */
   setLines(name, lines) {
     const column = (size, numbers) => [new Float32Array(lines.flatMap(numbers)), size];
-    this.setLayer(name, "lines", lines.length, [
-      column(3, ({ a }) => [...a]),
-      column(3, ({ b }) => [...b]),
+    this.setLayer(name, "lines", [
+      column(3, ({ a }) => a),
+      column(3, ({ b }) => b),
       column(4, ({ color, alpha = 1 }) => [...this.palette[COLORS.indexOf(color)], alpha]),
       column(2, ({ width = 1.5, dash = 0 }) => [width, dash]),
     ]);
@@ -109,17 +105,23 @@ class View {
   /** Sets the camera: its target, its angles in radians, its distance, its picture's height. */
   look(camera) {
     this.camera = { ...this.camera, ...camera };
-    const limit = Math.PI / 2 - 0.001;
-    this.camera.pitch = clamp(this.camera.pitch, -limit, limit);
+    this.camera.pitch = clamp(this.camera.pitch, -1.57, 1.57);
     this.moved = performance.now();
     this.draw();
+  }
+
+  /** Turns the camera around its target, in radians, and brings it nearer or farther. */
+  move(dx, dy, zoom = 1) {
+    const { yaw, pitch, distance, size } = this.camera;
+    const to = clamp(distance * zoom, size / 500, size * 20);
+    this.look({ yaw: yaw + dx, pitch: pitch - dy, distance: to });
   }
 
   /** While the camera moves, draws only as many dots as there is time for. At rest, draws all. */
   keepPace() {
     const now = performance.now(), since = now - this.drawn;
     const isMoving = this.moved > this.drawn || now - this.moved < 150;
-    const least = Math.min(1, View.QUICK / this.layers.dots.count);
+    const least = Math.min(1, QUICK / this.layers.dots.count);
     if (isMoving && since < 1000)
       this.pace = clamp(this.pace * clamp(42 / since, 0.6, 1.15), least, 1);
     this.part = isMoving ? this.pace : 1;
@@ -128,43 +130,35 @@ class View {
     if (this.part < 1) this.rest = setTimeout(() => this.draw(), 200);
   }
 
-  /** The way the camera looks, what is right and up to it, and where it is. */
-  axes() {
-    const { yaw, pitch, target, distance } = this.camera;
-    const across = Math.cos(pitch);
-    const forward = [Math.sin(yaw) * across, Math.cos(yaw) * across, Math.sin(pitch)];
-    const right = [Math.cos(yaw), -Math.sin(yaw), 0];
-    return { forward, right, up: cross(right, forward), eye: add(target, forward, -distance) };
-  }
-
   /** Half the height of the picture at distance 1. A narrow view is higher, to show all of 4:3. */
   get halfHeight() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     return this.camera.halfHeight * Math.max(1, 4 / 3 / (width / height));
   }
 
-  /** World to clip space, column by column. */
+  /** World to what the camera sees: to its right, above it, and behind it. */
+  worldToCamera() {
+    const { yaw, pitch, target, distance } = this.camera;
+    return new DOMMatrix().translate(0, 0, -distance)
+      .rotateAxisAngle(1, 0, 0, -90 - pitch * DEGREES).rotateAxisAngle(0, 0, 1, yaw * DEGREES)
+      .translate(...scale(target, -1));
+  }
+
+  /** World to clip space. */
   matrix() {
-    const { canvas, camera, halfHeight } = this;
-    const { forward, right, up, eye } = this.axes();
-    const [near, far] = [camera.distance * 0.02, camera.distance + 20 * camera.size];
-    const rows = [
-      [scale(right, canvas.clientHeight / canvas.clientWidth / halfHeight), 0],
-      [scale(up, 1 / halfHeight), 0],
-      [scale(forward, (far + near) / (far - near)), (-2 * far * near) / (far - near)],
-      [forward, 0],
-    ];
-    const row = rows.map(([v, more]) => [...v, more - dot(v, eye)]);
-    return [0, 1, 2, 3].flatMap((column) => row.map((r) => r[column]));
+    const { canvas, halfHeight, camera: { distance, size } } = this;
+    const [near, far] = [distance * 0.02, distance + 20 * size];
+    const across = canvas.clientHeight / canvas.clientWidth / halfHeight;
+    const [depth, shift] = [(far + near) / (near - far), (2 * far * near) / (near - far)];
+    const lens = [across, 0, 0, 0, 0, 1 / halfHeight, 0, 0, 0, 0, depth, -1, 0, 0, shift, 0];
+    return new DOMMatrix(lens).multiply(this.worldToCamera());
   }
 
   /** Where `point` appears, in CSS pixels; nothing if it lies behind. */
-  project([x, y, z]) {
+  project(point) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const m = this.matrix();
-    const row = (r) => m[r] * x + m[4 + r] * y + m[8 + r] * z + m[12 + r];
-    const w = row(3);
-    return w > 0 ? [((row(0) / w + 1) / 2) * width, ((1 - row(1) / w) / 2) * height] : null;
+    const { x, y, w } = this.matrix().transformPoint(new DOMPoint(...point));
+    return w > 0 ? [((x / w + 1) / 2) * width, ((1 - y / w) / 2) * height] : null;
   }
 
   draw() {
@@ -186,8 +180,6 @@ class View {
     gl.viewport(0, 0, width, height);
     gl.clearColor(...this.air, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.enable(gl.DEPTH_TEST);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     const uniforms = this.uniforms();
     if (this.wallAlpha === 1) this.drawLayer("surfaces", uniforms, false);
     // Paths are in no order, so the first part of the dots is spread evenly.
@@ -200,17 +192,19 @@ class View {
     gl.disable(gl.DEPTH_TEST);
     this.drawLayer("path", uniforms);
     this.drawLayer("marks", { ...uniforms, least: 13 * ratio, most: 13 * ratio, dim: 1 });
+    gl.enable(gl.DEPTH_TEST);
     gl.depthMask(true);
     this.onDraw();
   }
 
   /** What the programs of a frame are told. */
   uniforms() {
-    const { canvas, light, air, wash, wallAlpha: alpha, palette, dim } = this;
+    const { canvas, light, air, wallAlpha: alpha, palette, dim } = this;
     const { width, height, clientWidth, clientHeight } = canvas;
     const ratio = width / clientWidth;
+    const { x, y, z } = this.worldToCamera().inverse().transformPoint();
     return {
-      camera: this.matrix(), eye: this.axes().eye, light, air, wash, alpha, dim, pick: 0,
+      camera: this.matrix().toFloat32Array(), eye: [x, y, z], light, air, alpha, dim, pick: 0,
       palette: palette.flat(), size: [clientWidth, clientHeight],
       pixels: (this.dotSize * height) / 2 / this.halfHeight,
       least: 1.5 * ratio, most: 30 * ratio, large: 8 * ratio,
@@ -236,35 +230,31 @@ class View {
     gl.bindVertexArray(vao);
     if (kind === "lines") gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     else gl.drawArrays(kind === "dots" ? gl.POINTS : gl.TRIANGLES, 0, Math.ceil(count * part));
-    gl.bindVertexArray(null);
   }
 
   /** The index of the dot drawn nearest to the CSS pixel (`x`, `y`), or -1. Draws the dots there
-   * again, each in a color of its own, into a corner of the next frame that is then cleared. */
+   * again, each in a color of its own; the next frame covers them. */
   pick(x, y) {
-    const { gl, canvas } = this, side = View.PICK;
-    // Clip space, cropped to a square around the pixel.
-    const uniforms = this.uniforms(), { camera: crop } = uniforms;
-    const [cx, cy] = [(2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight];
-    for (let at = 0; at < 16; at += 4) {
-      crop[at] = ((crop[at] - cx * crop[at + 3]) * canvas.width) / side;
-      crop[at + 1] = ((crop[at + 1] - cy * crop[at + 3]) * canvas.height) / side;
-    }
-    gl.viewport(0, 0, side, side);
+    const { gl, canvas: { width, height, clientWidth } } = this;
+    const uniforms = { ...this.uniforms(), pick: 1, least: 5 };
+    const ratio = width / clientWidth, middle = (PICK - 1) / 2;
+    const area = [Math.round(x * ratio) - middle, height - Math.round(y * ratio) - middle];
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(...area, PICK, PICK);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.enable(gl.DEPTH_TEST);
     gl.colorMask(false, false, false, false);
     if (this.wallAlpha === 1) this.drawLayer("surfaces", uniforms, false);
     gl.colorMask(true, true, true, true);
-    this.drawLayer("dots", { ...uniforms, pick: 1, shift: [0, 0], least: 5 }, false);
-    const pixels = new Uint8Array(4 * side * side);
-    gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    this.drawLayer("dots", uniforms, false);
+    gl.disable(gl.SCISSOR_TEST);
+    const pixels = new Uint8Array(4 * PICK * PICK);
+    gl.readPixels(...area, PICK, PICK, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     this.draw();
     let [best, nearest] = [-1, Infinity];
     new Uint32Array(pixels.buffer).forEach((pixel, i) => {
-      const number = pixel & 0xffffff, middle = (side - 1) / 2;
-      const away = Math.hypot((i % side) - middle, Math.floor(i / side) - middle);
+      const away = Math.hypot((i % PICK) - middle, Math.floor(i / PICK) - middle);
+      const number = pixel & 0xffffff;
       if (number > 0 && away < nearest) [best, nearest] = [number - 1, away];
     });
     return best;

@@ -3,16 +3,22 @@
 use std::collections::BTreeSet;
 
 use compare::alignment::{Pairing, align, with_bounces};
-use compare::explain::{Hit, explain, vector};
+use compare::differences::Differences;
+use compare::numbers::thousands;
 use compare::report::{Outcome, RandomNumbers, Report, compare, scene_size};
-use glam::Vec3;
 use photon_list::reader::PhotonList;
-use photon_mapping::photon_list::PhotonRecord;
 use serde_json::{Value, json};
 use variants::run::Run;
 use variants::section::Section;
 
+use super::html::{escape, fill};
 use super::misreading::ShownMisreading;
+use super::parting::PartingStep;
+
+/// Up to so many differing dots are drawn large.
+const MOST_LARGE: u64 = 2000;
+
+const HEAD: &str = include_str!("../assets/comparison.html");
 
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
 /// default of `compare`.
@@ -22,9 +28,6 @@ const TOLERANCE: f32 = 1e-4;
 pub(crate) fn tolerance(run: &Run) -> f32 {
     TOLERANCE * run.placement.length_to_world(scene_size(run.scene()))
 }
-
-/// A record closer than this to the hit before it, in world units, tells no direction.
-const NEAREST: f32 = 0.01;
 
 /// What the other list is.
 #[derive(Clone, Debug)]
@@ -44,24 +47,12 @@ pub enum Other {
 #[derive(Debug)]
 pub struct ListComparison {
     other: Other,
-    report: Report,
+    pub(crate) report: Report,
     pub(crate) pairings: Vec<Pairing>,
     pub(crate) reference: PhotonList,
     pub(crate) submission: PhotonList,
     pub(crate) tolerance: f32,
-    step: Option<PartingStep>,
-}
-
-/// The step of a photon at which the lists part.
-#[derive(Debug)]
-struct PartingStep {
-    photon: u64,
-    bounce: usize,
-    name: &'static str,
-    /// Label, the reference's value, the other list's.
-    sides: Vec<[String; 3]>,
-    /// Where the other list has its record, if it has one.
-    other: Option<[f32; 3]>,
+    pub(crate) step: Option<PartingStep>,
 }
 
 impl ListComparison {
@@ -98,14 +89,9 @@ impl ListComparison {
         .filter(|_| self.report.outcome == Outcome::Different)
     }
 
-    /// The photon at which the lists part first.
-    pub fn photon(&self) -> Option<u64> {
-        self.step.as_ref().map(|step| step.photon)
-    }
-
-    /// The bounce, and the name of the step, at which they part.
-    pub fn step(&self) -> Option<(usize, &'static str)> {
-        self.step.as_ref().map(|step| (step.bounce, step.name))
+    /// The photon, the bounce and the step at which the lists part first.
+    pub(crate) fn parting(&self) -> Option<(u64, usize, &'static str)> {
+        self.step.as_ref().map(|step| (step.photon, step.bounce, step.name))
     }
 
     /// The section to which the difference belongs: of a misreading it is known.
@@ -126,73 +112,26 @@ impl ListComparison {
         photons.collect()
     }
 
-    fn find_step(&self, run: &Run) -> Option<PartingStep> {
-        let divergence = self.report.first_divergence.as_ref()?;
-        let photon = divergence.photon?;
-        let story = explain(run, photon)?;
-        let recorded = divergence.bounce.unwrap_or(1).min(story.hits.len());
-        // What went wrong happened at the hit before the record.
-        let before = recorded.saturating_sub(1);
-        let starts_elsewhere =
-            divergence.reason.as_ref().is_some_and(|reason| reason.contains("start"));
-        let (bounce, name) = match self.section()? {
-            Section::PhotonEmission => (0, "emission"),
-            Section::PhotonStorage => (recorded.min(story.hits.len().saturating_sub(1)), "stored"),
-            Section::PhotonScatteringAbsorption => (before, "roulette"),
-            Section::HemisphereSampling => (before, "hemisphere"),
-            Section::HemisphereRayTransformation if starts_elsewhere => (before, "ray"),
-            Section::HemisphereRayTransformation => (before, "frame"),
-        };
-        let told = [&divergence.reference, &divergence.submission];
-        let (reference, submission) = self.records_of(photon, recorded);
-        // Before the photon has scattered, its records tell no direction.
-        let has_scattered = !["emission", "stored"].contains(&name);
-        let before = story.hits.get(before).filter(|_| recorded > 0 && has_scattered);
-        let [ours, theirs] = told.map(String::clone);
-        let mut sides = vec![[format!("bounce {recorded}"), ours, theirs]];
-        // What was told already is not told again.
-        let is_new = |row: &[String; 3]| row[1..].iter().zip(told).any(|(a, b)| !b.contains(a));
-        sides.extend(values(before, reference, submission).into_iter().filter(is_new));
-        let other = submission.map(|record| record.position).filter(|place| place.is_finite());
-        Some(PartingStep {
-            photon,
-            bounce,
-            name,
-            sides,
-            other: other.map(|place| place.to_array()),
-        })
+    /// What the list is.
+    pub(crate) fn kind(&self) -> &'static str {
+        match &self.other {
+            Other::Submission { .. } => "submission",
+            Other::Misreading(_) => "misreading",
+        }
     }
 
-    /// The records of bounce `bounce` of `photon` in both lists.
-    fn records_of(
-        &self,
-        photon: u64,
-        bounce: usize,
-    ) -> (Option<&PhotonRecord>, Option<&PhotonRecord>) {
-        let is_it = |record: &PhotonRecord| {
-            u64::from(record.photon) == photon && usize::from(record.bounce) == bounce
-        };
-        let (reference, submission) = (&self.reference.records, &self.submission.records);
-        let pairing = self.pairings.iter().find(|pairing| match **pairing {
-            Pairing::Both(i, _) | Pairing::Missing(i) => is_it(&reference[i]),
-            Pairing::Extra(j) => self.submission.columns.photon && is_it(&submission[j]),
-        });
-        match pairing.copied() {
-            Some(Pairing::Both(i, j)) => (Some(&reference[i]), Some(&submission[j])),
-            Some(Pairing::Missing(i)) => (Some(&reference[i]), None),
-            Some(Pairing::Extra(j)) => (None, Some(&submission[j])),
-            None => (None, None),
+    /// Whether the lists come from the same random numbers: under a misreading they do.
+    fn random_numbers(&self) -> RandomNumbers {
+        match self.misreading() {
+            Some(_) => RandomNumbers::Same,
+            None => self.report.random_numbers,
         }
     }
 
     /// What the page shows above the box.
-    pub(crate) fn meta(&self, surfaces: usize) -> Value {
-        let Report { outcome, differences, first_divergence, .. } = &self.report;
-        let name = self.name();
-        let numbers = match self.misreading() {
-            Some(_) => RandomNumbers::Same,
-            None => self.report.random_numbers,
-        };
+    pub(crate) fn head(&self) -> String {
+        let Report { outcome, first_divergence, .. } = &self.report;
+        let (name, kind, numbers) = (self.name(), self.kind(), self.random_numbers());
         let same = match outcome {
             Outcome::Identical => Some("identical"),
             Outcome::WithinTolerance => Some("the same within the tolerance"),
@@ -213,10 +152,6 @@ impl ListComparison {
             (None, None) => format!("{name}: different"),
         };
         let note = self.report.note.as_deref().map(sentence).unwrap_or_default();
-        let kind = match &self.other {
-            Other::Submission { .. } => "submission",
-            Other::Misreading(_) => "misreading",
-        };
         let (reason, advice) = match (self.misreading(), numbers.told()) {
             (_, Some([meaning, advice])) => (meaning.to_owned(), advice.to_owned()),
             (Some(ShownMisreading { id, title, advice, .. }), _) if kind == "submission" => {
@@ -233,23 +168,38 @@ impl ListComparison {
             None if numbers != RandomNumbers::Same => "unknown",
             None => "different",
         };
+        let hidden = if self.step.is_none() { "hidden" } else { "" };
+        let parts = [
+            ("outcome", outcome.to_owned()),
+            ("verdict", escape(&verdict)),
+            ("reason", escape(&reason)),
+            ("advice", escape(&advice)),
+            ("hidden", hidden.to_owned()),
+            ("report", escape(&self.report.text())),
+        ];
+        fill(HEAD, &parts)
+    }
+
+    /// What the script reads.
+    pub(crate) fn meta(&self) -> Value {
+        let step = self.step.as_ref();
+        let Differences { matched, missing, moved, extra, .. } = self.report.differences;
+        let is_counted = self.random_numbers() != RandomNumbers::Other;
+        let legend =
+            [("matched", matched), ("missing", missing), ("moved", moved), ("extra", extra)].map(
+                |(kind, count)| {
+                    if is_counted {
+                        format!("{} {kind}", thousands(count))
+                    } else {
+                        kind.to_owned()
+                    }
+                },
+            );
         json!({
-            "kind": kind,
-            "outcome": outcome,
-            "verdict": verdict,
-            "reason": reason,
-            "advice": advice,
-            "report": self.report.text(),
-            "table": self.table(surfaces),
-            "counts": (numbers != RandomNumbers::Other).then(|| json!({
-                "matched": differences.matched, "missing": differences.missing,
-                "moved": differences.moved, "extra": differences.extra,
-            })),
-            "photon": self.step.as_ref().map(|step| step.photon),
-            "bounce": self.step.as_ref().map(|step| step.bounce),
-            "step": self.step.as_ref().map(|step| step.name),
-            "other": self.step.as_ref().and_then(|step| step.other),
-            "sides": self.step.as_ref().map(|step| &step.sides),
+            "legend": legend,
+            "areFew": is_counted && missing + moved + extra <= MOST_LARGE,
+            "parts": step.is_some(),
+            "other": step.and_then(|step| step.other),
         })
     }
 }
@@ -261,33 +211,6 @@ fn apart(pairings: &[Pairing]) -> Vec<Pairing> {
         alone => vec![alone],
     });
     parts.collect()
-}
-
-/// Both lists' values of a record, with labels. `before` is the hit from which its photon came.
-fn values(
-    before: Option<&Hit>,
-    reference: Option<&PhotonRecord>,
-    submission: Option<&PhotonRecord>,
-) -> Vec<[String; 3]> {
-    let none = || "none".to_owned();
-    let tell = |value: Option<Vec3>| value.map_or_else(none, |value| vector(&value.to_array()));
-    let mut rows = Vec::new();
-    // Where only one list has a record, what happens at this bounce tells its place.
-    if let Some((a, b)) = reference.zip(submission) {
-        let [a, b] = [a, b].map(|record| tell(Some(record.position)));
-        rows.push(["position".to_owned(), a, b]);
-    }
-    // From a point as close as rounding, the way tells no direction.
-    let way = before.zip(submission).map(|(before, other)| other.position - before.point());
-    if let (Some(before), Some(way)) = (before, way.filter(|way| way.length() > NEAREST)) {
-        let way = way.normalize();
-        let normal = Vec3::from_array(before.normal);
-        let angle = |way: Vec3| format!("{:.1}°", way.angle_between(normal).to_degrees());
-        let expected = before.direction.map(Vec3::from_array);
-        rows.push(["direction".to_owned(), tell(expected), tell(Some(way))]);
-        rows.push(["angle to n".to_owned(), expected.map_or_else(none, angle), angle(way)]);
-    }
-    rows
 }
 
 /// `clause` with a capital and a full stop; symbols, as r and t, keep their case.

@@ -11,12 +11,15 @@
 //! 3-D part.
 
 pub mod comparison;
+mod html;
 pub mod misreading;
 mod overlay;
 mod pack;
 mod page;
+mod parting;
 mod paths;
 mod scene;
+mod table;
 
 use std::convert::Infallible;
 use std::ops::Range;

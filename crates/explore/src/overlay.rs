@@ -5,57 +5,59 @@ use std::collections::BTreeSet;
 use compare::alignment::Pairing;
 use compare::position_index::is_near;
 use photon_list::reader::PhotonList;
+use photon_mapping::photon_list::PhotonRecord;
 
 use super::comparison::ListComparison;
-use super::pack::PackedColumns;
 
 /// A page shows at most so many records that only the other list has, evenly thinned.
 const MOST_EXTRA: usize = 500_000;
 
+/// What a page draws of another list.
+#[derive(Debug, Default)]
+pub(crate) struct Overlay<'a> {
+    /// For each dot: 0 matched, 1 missing, 2 moved, 3 extra. After the stored photons of the page
+    /// come those that moved, then the extra ones.
+    pub(crate) kinds: Vec<u8>,
+    /// The positions of the dots after the stored photons.
+    pub(crate) positions: Vec<[f32; 3]>,
+    /// For each dot that moved, the stored photon that it should be.
+    pub(crate) moved_index: Vec<u32>,
+    pub(crate) extra: Vec<&'a PhotonRecord>,
+}
+
 impl ListComparison {
-    /// Adds what the page reads of the overlay; `places` has the place of each record of the
-    /// reference among the stored photons of the page.
-    pub(crate) fn add_columns(&self, columns: &mut PackedColumns, places: &[Option<u32>]) {
-        // For each stored photon of the page: 0 matched, 1 missing, 2 moved.
-        let mut kinds = vec![0; places.iter().flatten().count()];
-        // For each record that moved: the stored photon that it should be, and where it is.
-        let (mut moved_index, mut moved) = (Vec::new(), Vec::new());
-        let mut extra = Vec::new();
+    /// What the page draws; `places` has the place of each record of the reference among its
+    /// `stored` photons.
+    pub(crate) fn overlay(&self, places: &[Option<u32>], stored: usize) -> Overlay<'_> {
+        let mut overlay = Overlay { kinds: vec![0; stored], ..Overlay::default() };
         for pairing in &self.pairings {
             match *pairing {
                 Pairing::Missing(i) => {
                     if let Some(place) = places[i] {
-                        kinds[place as usize] = 1;
+                        overlay.kinds[place as usize] = 1;
                     }
                 }
                 Pairing::Both(i, j) => {
                     let (a, b) = (&self.reference.records[i], &self.submission.records[j]);
                     let Some(place) = places[i] else { continue };
                     if !is_near(a.position, b.position, self.tolerance) {
-                        kinds[place as usize] = 2;
+                        overlay.kinds[place as usize] = 2;
                         if b.position.is_finite() {
-                            moved_index.push(place);
-                            moved.push(b.position.to_array());
+                            overlay.moved_index.push(place);
+                            overlay.positions.push(b.position.to_array());
                         }
                     }
                 }
-                Pairing::Extra(j) => extra.push(&self.submission.records[j]),
+                Pairing::Extra(j) => overlay.extra.push(&self.submission.records[j]),
             }
         }
-        let every = extra.len() / MOST_EXTRA + 1;
-        let extra = extra.into_iter().step_by(every).filter(|record| record.position.is_finite());
-        let extra: Vec<_> = extra.collect();
-        columns.bytes("kind", &kinds);
-        columns.words("movedIndex", &moved_index);
-        columns.vectors("moved", &moved);
-        let of_extra = extra.iter();
-        let positions: Vec<_> = of_extra.clone().map(|it| it.position.to_array()).collect();
-        columns.vectors("extra", &positions);
-        // What a list does not tell is the largest number.
-        let photons: Vec<_> = of_extra.clone().map(|it| it.photon).collect();
-        columns.words("extraPhoton", &photons);
-        columns.shorts("extraBounce", &of_extra.clone().map(|it| it.bounce).collect::<Vec<_>>());
-        columns.shorts("extraSurface", &of_extra.map(|it| it.surface).collect::<Vec<_>>());
+        let every = overlay.extra.len() / MOST_EXTRA + 1;
+        let kept = overlay.extra.into_iter().step_by(every);
+        overlay.extra = kept.filter(|record| record.position.is_finite()).collect();
+        overlay.positions.extend(overlay.extra.iter().map(|record| record.position.to_array()));
+        overlay.kinds.resize(stored + overlay.moved_index.len(), 2);
+        overlay.kinds.resize(stored + overlay.positions.len(), 3);
+        overlay
     }
 
     /// How many photons the other list stores, surface by surface and last in total: at the bounces

@@ -10,12 +10,14 @@ use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::numerics::LARGE_EPSILON;
 use rayon::prelude::*;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 use variants::run::Run;
 
 use super::Exploration;
+use super::comparison::ListComparison;
+use super::overlay::Overlay;
 use super::pack::PackedColumns;
-use super::scene::{PageFace, PageSurface, camera, faces, surfaces};
+use super::scene::{PageFace, PageSurface, cameras, edges, faces, surfaces};
 
 /// A page shows all stored photons up to so many; of more, an evenly thinned sample of whole paths.
 const MOST_STORED: usize = 1_000_000;
@@ -29,12 +31,19 @@ pub struct Paths {
     /// The packed numbers.
     #[serde(skip)]
     pub columns: PackedColumns,
-    /// The photon on which the page opens.
-    start: u64,
-    pub surfaces: Vec<PageSurface>,
+    /// How many stored photons the page has, if it leaves out some.
+    #[serde(skip)]
+    pub thinned: Option<u64>,
+    /// The photon, bounce and step on which the page opens.
+    start: Option<(u64, usize, &'static str)>,
+    surfaces: Vec<PageSurface>,
     faces: Vec<PageFace>,
-    lights: Vec<Value>,
+    /// The outlines of the faces.
+    edges: Vec<[[f32; 3]; 2]>,
+    lights: Vec<[f32; 3]>,
     camera: Value,
+    /// That with which the page opens.
+    first_camera: Value,
     /// The scene's longest edge, in world units.
     size: f32,
     /// The edge of the cube in which the picture looks for a photon, in world units.
@@ -54,21 +63,21 @@ impl Paths {
         let stories = stories(exploration, records);
         let mut columns = PackedColumns::default();
         add_paths(&mut columns, &stories, &faces, run);
-        if let Some(comparison) = exploration.comparison {
-            comparison.add_columns(&mut columns, &stored_places(&stories, exploration.records));
-        }
+        add_dots(&mut columns, &stories, exploration);
         let first = records.first().map(|record| u64::from(record.photon));
         let size = placement.length_to_world(scene_size(scene));
+        let parting = exploration.comparison.and_then(ListComparison::parting);
+        let lights = scene.lights().iter();
+        let [camera, first_camera] = cameras(exploration.is_handout, &faces, size);
         Self {
             columns,
-            start: exploration.photon.or(first).unwrap_or(0),
+            thinned: thinned.as_ref().map(|kept| kept.len() as u64),
+            start: parting.or_else(|| Some((exploration.photon.or(first)?, 0, "emission"))),
             surfaces: surfaces(scene),
-            lights: scene
-                .lights()
-                .iter()
-                .map(|light| json!({ "position": placement.to_world(light.position).to_array() }))
-                .collect(),
-            camera: camera(exploration.is_handout, &faces, size),
+            edges: edges(&faces),
+            lights: lights.map(|light| placement.to_world(light.position).to_array()).collect(),
+            camera,
+            first_camera,
             faces,
             size,
             dot_size: placement.length_to_world(2.0 * PHOTON_DOT_RADIUS),
@@ -98,7 +107,7 @@ fn stories(exploration: &Exploration, records: &[PhotonRecord]) -> Vec<Story> {
     photons.dedup();
     let mut others: BTreeSet<u64> = exploration.photon.into_iter().collect();
     if let Some(comparison) = exploration.comparison {
-        others.extend(comparison.photon());
+        others.extend(comparison.parting().map(|(photon, ..)| photon));
         let extra = comparison.photons_of_extra();
         let step = extra.len() / MOST_STORIES_OF_OTHERS + 1;
         others.extend(extra.into_iter().step_by(step));
@@ -159,8 +168,6 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
     let of_hits: Vec<u16> = hits().map(|hit| face_of(hit.surface_index, hit.facet)).collect();
     columns.shorts("hitFace", &of_hits);
     columns.floats("hitT", &hits().map(|hit| hit.t).collect::<Vec<_>>());
-    let stored: Vec<_> = hits().filter(|hit| hit.bounce > 0).map(|hit| hit.position).collect();
-    columns.vectors("positions", &stored);
     let scattered: Vec<_> = hits().filter_map(|hit| hit.direction).collect();
     columns.vectors("scattered", &scattered);
     // What the page can compute to the same bits, by one line each, is left out.
@@ -172,6 +179,27 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
         let direct = |story: &Story| story.hits.first().map_or([0.0; 3], |hit| hit.position);
         columns.vectors("direct", &stories.iter().map(direct).collect::<Vec<_>>());
     }
+}
+
+/// Adds the dots: the photons that `stories` store, and what another list has besides.
+fn add_dots(columns: &mut PackedColumns, stories: &[Story], exploration: &Exploration) {
+    let hits = stories.iter().flat_map(|story| &story.hits);
+    let mut positions: Vec<_> = hits.filter(|hit| hit.bounce > 0).map(|hit| hit.position).collect();
+    let overlay = match exploration.comparison {
+        Some(comparison) => {
+            comparison.overlay(&stored_places(stories, exploration.records), positions.len())
+        }
+        None => Overlay { kinds: vec![0; positions.len()], ..Overlay::default() },
+    };
+    let Overlay { kinds, moved_index, extra, .. } = &overlay;
+    positions.extend(&overlay.positions);
+    columns.vectors("positions", &positions);
+    columns.bytes("kind", kinds);
+    columns.words("movedIndex", moved_index);
+    // What a list does not tell is the largest number.
+    columns.words("extraPhoton", &extra.iter().map(|it| it.photon).collect::<Vec<_>>());
+    columns.shorts("extraBounce", &extra.iter().map(|it| it.bounce).collect::<Vec<_>>());
+    columns.shorts("extraSurface", &extra.iter().map(|it| it.surface).collect::<Vec<_>>());
 }
 
 /// Whether the direction in which a photon leaves is its last try, normalized.

@@ -1,5 +1,7 @@
 //! A run's scene as the page draws it.
 
+use std::collections::BTreeSet;
+
 use glam::Vec3;
 use model::facets::facets;
 use photon_mapping::assignment8;
@@ -29,7 +31,7 @@ pub struct PageFace {
     pub axis: [f32; 3],
     /// The length of n x axis.
     pub bare: f32,
-    pub triangles: Vec<[f32; 9]>,
+    pub triangles: Vec<[[f32; 3]; 3]>,
 }
 
 pub fn surfaces(scene: &Scene) -> Vec<PageSurface> {
@@ -66,15 +68,7 @@ pub fn faces(run: &Run) -> Vec<PageFace> {
                 bare: normal.cross(axis).length(),
                 triangles: group
                     .iter()
-                    .map(|triangle| {
-                        let corners =
-                            triangle.vertices.map(|corner| run.placement.to_world(corner));
-                        let mut numbers = [0.0; 9];
-                        for (to, corner) in numbers.chunks_exact_mut(3).zip(corners) {
-                            to.copy_from_slice(&corner.to_array());
-                        }
-                        numbers
-                    })
+                    .map(|it| it.vertices.map(|corner| run.placement.to_world(corner).to_array()))
                     .collect(),
             }
         })
@@ -83,29 +77,49 @@ pub fn faces(run: &Run) -> Vec<PageFace> {
     faces
 }
 
-/// The handout's camera, or one that sees all of another scene. It has the point it turns around,
-/// the distance, the direction in radians, and half the height of its picture at distance 1.
-pub fn camera(is_handout: bool, faces: &[PageFace], size: f32) -> Value {
-    let camera = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
-    let half_height = camera.half_height;
+/// The outlines of `faces`: the edges of a face's triangles that no other of them has.
+pub fn edges(faces: &[PageFace]) -> Vec<[[f32; 3]; 2]> {
+    let outline = |face: &PageFace| {
+        let mut edges = BTreeSet::new();
+        for corners in &face.triangles {
+            let [a, b, c] = corners.map(|corner| corner.map(f32::to_bits));
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                let edge = [from.min(to), from.max(to)];
+                if !edges.remove(&edge) {
+                    edges.insert(edge);
+                }
+            }
+        }
+        edges.into_iter().map(|edge| edge.map(|end| end.map(f32::from_bits)))
+    };
+    faces.iter().flat_map(outline).collect()
+}
+
+/// The handout's camera, or one that sees all of another scene; then the one with which the page
+/// opens. A camera has the point it turns around, the distance, the direction in radians, and half
+/// the height of its picture at distance 1.
+pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
+    let handout = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
+    let camera = |target: Vec3, distance: f32, yaw: f32, pitch: f32| {
+        json!({
+            "target": target.to_array(), "distance": distance, "yaw": yaw, "pitch": pitch,
+            "halfHeight": handout.half_height,
+        })
+    };
     if is_handout {
         // It turns around the point before it that is nearest to the middle of the box.
-        let distance = -camera.position.dot(camera.forward);
-        let target = (camera.position + distance * camera.forward).to_array();
-        return json!({
-            "target": target, "distance": distance, "yaw": 0.0, "pitch": 0.0,
-            "halfHeight": half_height
-        });
+        let distance = -handout.position.dot(handout.forward);
+        let target = handout.position + distance * handout.forward;
+        // From a little farther off, the light is in sight.
+        let first = camera(target + 0.2 * Vec3::Z, 1.3 * distance, 0.3, -0.16);
+        return [camera(target, distance, 0.0, 0.0), first];
     }
     let corners = || {
-        let triangles = faces.iter().flat_map(|face| &face.triangles);
-        triangles.flat_map(|numbers| numbers.chunks_exact(3).map(Vec3::from_slice))
+        let corners = faces.iter().flat_map(|face| face.triangles.as_flattened());
+        corners.map(|corner| Vec3::from_array(*corner))
     };
     let low = corners().fold(Vec3::INFINITY, Vec3::min);
     let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let target = ((low + high) / 2.0).to_array();
-    json!({
-        "target": target, "distance": 2.8 * size, "yaw": 0.5, "pitch": -0.35,
-        "halfHeight": half_height
-    })
+    let whole = camera((low + high) / 2.0, 2.8 * size, 0.5, -0.35);
+    [whole.clone(), whole]
 }

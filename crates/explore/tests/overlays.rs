@@ -5,6 +5,7 @@ mod support;
 
 use browser::{Browser, launch};
 use compare::explain::explain;
+use compare::numbers::thousands;
 use explore::comparison::{ListComparison, Other};
 use explore::misreading;
 use oracle::table::ExpectedTable;
@@ -18,6 +19,8 @@ use variants::run::Run;
 use variants::section::Section;
 
 const PHOTONS: u64 = 60_000;
+const POSITIONS_ALONE: Columns =
+    Columns { intensity: false, to_light: false, photon: false, bounce: false, surface: false };
 
 fn traced(misreading: &str) -> Traced {
     let mut run = Run::handout(assignment8::SEED, PHOTONS);
@@ -84,9 +87,11 @@ fn every_misreading_opens_where_it_differs() {
         let kinds = browser.run(
             "[0, 1, 2, 3].map((kind) => page.run.dots.kind.reduce((n, k) => n + (k === kind), 0))",
         );
-        let counts = browser.run("page.run.comparison.counts");
-        assert_eq!(kinds[0], counts["matched"], "{name}");
-        assert_eq!(kinds[1], counts["missing"], "{name}");
+        let legend = browser.run("page.run.comparison.legend");
+        for (kind, what) in ["matched", "missing"].into_iter().enumerate() {
+            let drawn = thousands(float(&kinds[kind]) as u64);
+            assert_eq!(legend[kind], format!("{drawn} {what}"), "{name}");
+        }
         // A list whose records tell their photon opens it from there, as a whole of the story.
         let story = explain(&reference.run, photon.into()).expect("emitted");
         let chips = browser.run("document.querySelectorAll('#path button').length");
@@ -101,8 +106,7 @@ fn a_submission_shows_where_it_parts() {
     let reference = traced("");
     // One photon moved, one missing, one extra, in a list that tells only positions.
     let mut list = reference.list();
-    list.columns =
-        Columns { intensity: false, to_light: false, photon: false, bounce: false, surface: false };
+    list.columns = POSITIONS_ALONE;
     list.records[10].position.x += 0.2;
     list.records.remove(500);
     let mut extra = list.records[900];
@@ -113,9 +117,13 @@ fn a_submission_shows_where_it_parts() {
     let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
     let page = write_page("positions", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
-    let counts = browser.run("page.run.comparison.counts");
     let all = reference.records.len() as u64;
-    assert_eq!(counts, json!({ "matched": all - 2, "missing": 1, "moved": 1, "extra": 1 }));
+    let legend = format!(" {} matched 1 missing 1 moved 1 extra", thousands(all - 2));
+    let told = browser.text(
+        "[...document.querySelectorAll('#legend li')].map((entry) => \
+         entry.lastChild.textContent).join('')",
+    );
+    assert_eq!(told, legend);
     assert_eq!(float(&browser.run("page.photon")) as u32, reference.records[10].photon);
     assert!(browser.text_of("#sides").contains("submission"));
     // The line leads from where the photon is to where it should be.
@@ -182,14 +190,7 @@ fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
     for tells in [true, false] {
         let mut list = other.list();
         if !tells {
-            let none = false;
-            list.columns = Columns {
-                intensity: none,
-                to_light: none,
-                photon: none,
-                bounce: none,
-                surface: none,
-            };
+            list.columns = POSITIONS_ALONE;
             list.records.iter_mut().for_each(|record| {
                 (record.photon, record.bounce, record.surface) = (u32::MAX, u16::MAX, u16::MAX);
             });
@@ -276,7 +277,7 @@ fn a_submission_that_shows_a_misreading_is_told_so() {
         list.columns.photon = tells_photons;
         let misreading = misreading::recognize(&list, &reference.run).expect(name);
         assert_eq!(misreading.id, name);
-        let expected = format!("\"verdict\":\"mine.csv: {}\"", misreading.section.title());
+        let expected = format!(">mine.csv: {}</h2>", misreading.section.title());
         let mine = Other::Submission { name: "mine.csv".into(), misreading: Some(misreading) };
         let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
         let page = reference.exploration(Some(&comparison)).page();

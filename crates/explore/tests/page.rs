@@ -48,7 +48,7 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     );
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
-    let [left, top, right, bottom] = browser.edges("#view").map(|edge| edge as u32);
+    let [left, top, right, bottom] = browser.edges("#view").map(|edge| edge.round() as u32);
     assert_eq!((right - left, bottom - top), (640, 480));
     let shot = browser.screenshot();
     let picture = &handout().0.picture;
@@ -92,7 +92,7 @@ fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
     // Close to the dot, so that no other is as near to the click.
     browser.run(
-        "const stored = page.run.firstStored[page.run.photons.indexOf(73)]; page.view.look({ \
+        "const stored = page.run.dots.photon.indexOf(73); page.view.look({ \
          target: page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: 0 });",
     );
     browser.settle();

@@ -187,7 +187,8 @@ fn shapes_tell_what_colors_tell() {
     // The pixels that a mark of each shape colors, all in one color.
     let pixels = "(() => { const v = page.view, gl = v.gl, drawn = {}; v.setLines('path', []); \
          const { position, normal } = page.run.dots; \
-         v.setDots(position, new Uint8Array(page.looks.length), normal); \
+         v.setLayer('dots', 'dots', [[position, 3], [new Uint8Array(page.looks.length), 2], \
+         [normal, 3]]); \
          for (const shape of ['circle', 'square', 'diamond', 'triangle', 'ring', 'cross']) { \
          v.setMarks([{ at: v.camera.target, color: 'red', shape }]); v.drawNow(); \
          const all = new Uint8Array(4 * v.canvas.width * v.canvas.height); \

@@ -19,7 +19,10 @@ fn error(from: &str, to: &str) -> String {
 
 #[test]
 fn the_port_has_all_steps() {
-    port::find(read).unwrap();
+    let html = port::html::templates(&port::find(read).unwrap());
+    for step in ["emission", "hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
+        assert!(html.contains(&format!("<template id=\"code-{step}\"")), "{step}");
+    }
 }
 
 #[test]
@@ -46,8 +49,8 @@ fn a_missing_step_comment_is_named() {
 #[test]
 fn a_line_without_its_value_is_named() {
     let message = error("let probability_of_reflection", "let p");
-    let expected = "expected a line with 'let probability_of_reflection' for the step 'roulette' \
-                    of 'trace_photon'";
+    let expected = "expected a line with 'let probability_of_reflection = ' for the step \
+                    'roulette' of 'trace_photon'";
     assert!(message.ends_with(expected), "{message}");
 }
 
@@ -68,17 +71,13 @@ fn a_branch_that_no_story_tells_is_named() {
 
 #[test]
 fn each_branch_has_the_lines_that_it_decides() {
-    let source = serde_json::to_value(port::find(read).unwrap()).unwrap();
+    let source = port::find(read).unwrap();
     let mut told = Vec::new();
-    for function in source["functions"].as_array().unwrap() {
-        for branch in function["branches"].as_array().unwrap() {
-            let line = |at: usize| {
-                let at = branch["lines"][at].as_u64().unwrap() as usize;
-                function["lines"][at].as_str().unwrap().trim().to_owned()
-            };
-            let [name, code] = ["condition", "code"].map(|key| branch[key].as_str());
-            let code = code.map_or_else(|| [line(0), line(1)].join(" .. "), str::to_owned);
-            told.push(format!("{} {}: {code}", name.unwrap(), branch["holds"]));
+    for function in &source.functions {
+        for arm in &function.branches {
+            let [first, last] = arm.lines.map(|at| function.lines[at].trim());
+            let code = arm.code.clone().unwrap_or_else(|| format!("{first} .. {last}"));
+            told.push(format!("{} {}: {code}", arm.condition, arm.holds));
         }
     }
     let expected = [

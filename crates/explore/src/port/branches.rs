@@ -1,12 +1,10 @@
 //! Which lines of a function run only where a condition holds, or only where it does not.
 
-use serde::Serialize;
-
 use super::indent;
 use super::steps::CONDITIONS;
 
 /// Code that runs only if a condition is `holds`.
-#[derive(Debug, PartialEq, Eq, Serialize)]
+#[derive(Debug)]
 pub struct Arm {
     /// The name under which a story tells whether the condition holds.
     pub condition: &'static str,

@@ -6,36 +6,26 @@
 //! does not tell whether a branch is taken.
 
 mod branches;
+pub mod html;
 mod steps;
-
-use std::collections::BTreeMap;
-
-use serde::Serialize;
 
 use branches::Arm;
 use steps::{FUNCTIONS, LitLines, PortPart, PortStep, SECTIONS, STEPS};
 
 /// A function of the port as it stands in its file.
-#[derive(Debug, Serialize)]
-struct FoundFunction {
+#[derive(Debug)]
+pub struct FoundFunction {
     name: &'static str,
     file: &'static str,
     /// The number of its first line in the file, from 1.
     first: usize,
     /// Its lines, without the indentation that all have.
-    lines: Vec<String>,
-    branches: Vec<Arm>,
+    pub lines: Vec<String>,
+    pub branches: Vec<Arm>,
 }
 
-/// A step with its lines.
-#[derive(Debug, Serialize)]
-struct FoundStep {
-    short: &'static str,
-    title: &'static str,
-    parts: Vec<FoundPart>,
-}
-
-#[derive(Debug, Serialize)]
+/// What a step lights of one function.
+#[derive(Debug)]
 struct FoundPart {
     function: usize,
     /// The first and the last line lit, counted from the function's first line.
@@ -43,11 +33,11 @@ struct FoundPart {
     values: Vec<(usize, &'static str)>,
 }
 
-/// The port's functions, and where each step is in them, by its name.
-#[derive(Debug, Serialize)]
+/// The port's functions, and where each step is in them.
+#[derive(Debug)]
 pub struct PortSource {
-    functions: Vec<FoundFunction>,
-    steps: BTreeMap<&'static str, FoundStep>,
+    pub functions: Vec<FoundFunction>,
+    steps: Vec<(&'static PortStep, Vec<FoundPart>)>,
 }
 
 /// Finds everything in the files that `read` gives by their paths within the repository.
@@ -59,10 +49,9 @@ pub fn find(read: impl Fn(&str) -> Result<String, String>) -> Result<PortSource,
         .iter()
         .map(|(name, file)| find_function(name, file, &read(file)?))
         .collect::<Result<_, _>>()?;
-    let find_step = |step: &PortStep| {
+    let find_step = |step: &'static PortStep| {
         let parts = step.parts.iter().map(|part| find_part(step, part, &functions));
-        let parts = parts.collect::<Result<_, String>>()?;
-        Ok((step.name, FoundStep { short: step.short, title: step.section, parts }))
+        Ok((step, parts.collect::<Result<_, String>>()?))
     };
     let steps = STEPS.iter().map(find_step).collect::<Result<_, String>>()?;
     Ok(PortSource { functions, steps })
@@ -141,7 +130,11 @@ fn find_part(
     };
     // A blank line that ends a section is none of its lines.
     let blank = lines[..=lit[1]].iter().rev().take_while(|line| line.trim().is_empty()).count();
-    let values = part.values.iter().map(|(needle, key)| Ok((line_with(start, needle)?, *key)));
+    let values = part.values.iter().map(|value| {
+        let variable = format!("let {value} = ");
+        let (key, needle) = value.split_once(": ").unwrap_or((value, &variable));
+        Ok((line_with(start, needle)?, key))
+    });
     Ok(FoundPart {
         function: index,
         lit: [lit[0], lit[1] - blank],

@@ -11,6 +11,7 @@ pub const SECTIONS: [&str; 5] = [
 ];
 
 /// A step of a photon's story.
+#[derive(Debug)]
 pub struct PortStep {
     /// Its name in links.
     pub name: &'static str,
@@ -22,14 +23,17 @@ pub struct PortStep {
 }
 
 /// What a step runs of one function.
+#[derive(Debug)]
 pub struct PortPart {
     pub function: &'static str,
     pub lines: LitLines,
-    /// What a line contains, and the value that stands beside it.
-    pub values: &'static [(&'static str, &'static str)],
+    /// The values: each stands beside the line that starts with `let` and its name, or else that
+    /// contains the text after it.
+    pub values: &'static [&'static str],
 }
 
 /// The lines that a step lights.
+#[derive(Debug)]
 pub enum LitLines {
     /// All under the step comment of a section.
     Section(&'static str),
@@ -66,7 +70,7 @@ pub const CONDITIONS: [(&str, &str); 6] = [
     ("if is_parallel {", "is_parallel"),
 ];
 
-pub const STEPS: [PortStep; 9] = [
+pub static STEPS: [PortStep; 9] = [
     PortStep {
         name: "emission",
         short: "Emission",
@@ -75,12 +79,12 @@ pub const STEPS: [PortStep; 9] = [
             function: "generate_random_photon_ray",
             lines: LitLines::Section(EMISSION),
             values: &[
-                ("let direction = loop", "loop"),
-                ("let x = ", "x"),
-                ("let y = ", "y"),
-                ("let z = ", "z"),
-                ("let length_squared", "length_squared"),
-                ("direction.normalize()", "direction"),
+                "loop: let direction = loop",
+                "x",
+                "y",
+                "z",
+                "length_squared",
+                "direction: direction.normalize()",
             ],
         }],
     },
@@ -92,9 +96,9 @@ pub const STEPS: [PortStep; 9] = [
             function: "trace_photon",
             lines: LitLines::Within(STORAGE, "if remaining_bounces < 0", "let intersection_point"),
             values: &[
-                ("if remaining_bounces < 0", "remaining_bounces"),
-                (".trace(photon_ray", "trace()"),
-                ("let intersection_point", "intersection_point"),
+                "remaining_bounces: if remaining_bounces < 0",
+                "trace(): .trace(photon_ray",
+                "intersection_point",
             ],
         }],
     },
@@ -106,9 +110,9 @@ pub const STEPS: [PortStep; 9] = [
             function: "trace_photon",
             lines: LitLines::Within(STORAGE, "if path.len() > 1", "path.push("),
             values: &[
-                ("if path.len() > 1", "path.len()"),
-                ("photon_map.push(", "photon_map.push()"),
-                ("to_light_ray", "to_light"),
+                "path.len(): if path.len() > 1",
+                "photon_map.push(): photon_map.push(",
+                "to_light: to_light_ray",
             ],
         }],
     },
@@ -120,11 +124,11 @@ pub const STEPS: [PortStep; 9] = [
             function: "trace_photon",
             lines: LitLines::Within(SCATTERING, SCATTERING, "return;"),
             values: &[
-                ("let hit_primitive", "hit_primitive"),
-                ("let hit_mesh_object", "hit_mesh_object"),
-                ("let diffuse_response", "diffuse_response"),
-                ("let probability_of_reflection", "probability_of_reflection"),
-                ("if rand() >=", "rand()"),
+                "hit_primitive",
+                "hit_mesh_object",
+                "diffuse_response",
+                "probability_of_reflection",
+                "rand(): if rand() >=",
             ],
         }],
     },
@@ -137,21 +141,15 @@ pub const STEPS: [PortStep; 9] = [
                 function: "trace_photon",
                 lines: LitLines::Within(SCATTERING, "let (u1, u2)", "let diffuse_reflection_ray"),
                 values: &[
-                    ("let (u1, u2)", "u1"),
-                    ("let (u1, u2)", "u2"),
-                    ("let diffuse_reflection_ray", "ray_direction()"),
+                    "u1: let (u1, u2)",
+                    "u2: let (u1, u2)",
+                    "ray_direction(): let diffuse_reflection_ray",
                 ],
             },
             PortPart {
                 function: "sample_hemisphere",
                 lines: LitLines::Body,
-                values: &[
-                    ("let r = ", "r"),
-                    ("let theta = ", "theta"),
-                    ("let x = ", "x"),
-                    ("let y = ", "y"),
-                    ("let z = ", "z"),
-                ],
+                values: &["r", "theta", "x", "y", "z"],
             },
         ],
     },
@@ -163,20 +161,12 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "diffuse_reflection_ray",
                 lines: LitLines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
-                values: &[
-                    ("let normal", "normal"),
-                    ("let world_space_direction", "world_space_direction"),
-                ],
+                values: &["normal", "world_space_direction"],
             },
             PortPart {
                 function: "tangent_frame",
                 lines: LitLines::Body,
-                values: &[
-                    ("let is_parallel", "is_parallel"),
-                    ("let axis", "axis"),
-                    ("let tangent", "tangent"),
-                    ("let bitangent", "bitangent"),
-                ],
+                values: &["is_parallel", "axis", "tangent", "bitangent"],
             },
         ],
     },
@@ -188,21 +178,21 @@ pub const STEPS: [PortStep; 9] = [
             PortPart {
                 function: "diffuse_reflection_ray",
                 lines: LitLines::Within(TRANSFORMATION, "spawn_ray(", "spawn_ray("),
-                values: &[("spawn_ray(", "world_space_direction")],
+                values: &["world_space_direction: spawn_ray("],
             },
             PortPart {
                 function: "spawn_ray",
                 lines: LitLines::Body,
                 values: &[
-                    ("let (start, offset)", "start"),
-                    ("let (start, offset)", "offset"),
-                    ("ray.start_error", "start_error"),
+                    "start: let (start, offset)",
+                    "offset: let (start, offset)",
+                    "start_error: ray.start_error",
                 ],
             },
             PortPart {
                 function: "trace_photon",
                 lines: LitLines::Within(SCATTERING, "self.trace_photon(", "remaining_bounces - 1"),
-                values: &[("remaining_bounces - 1", "remaining_bounces")],
+                values: &["remaining_bounces: remaining_bounces - 1"],
             },
         ],
     },
@@ -213,7 +203,7 @@ pub const STEPS: [PortStep; 9] = [
         parts: &[PortPart {
             function: "trace_photon",
             lines: LitLines::Within(STORAGE, ".trace(photon_ray", "return;"),
-            values: &[(".trace(photon_ray", "trace()")],
+            values: &["trace(): .trace(photon_ray"],
         }],
     },
     PortStep {
@@ -223,7 +213,7 @@ pub const STEPS: [PortStep; 9] = [
         parts: &[PortPart {
             function: "trace_photon",
             lines: LitLines::Within(STORAGE, "if remaining_bounces < 0", "return;"),
-            values: &[("if remaining_bounces < 0", "remaining_bounces")],
+            values: &["remaining_bounces: if remaining_bounces < 0"],
         }],
     },
 ];

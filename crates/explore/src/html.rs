@@ -1,0 +1,33 @@
+//! HTML in which text stays text.
+
+/// `text` for a place between tags or in an attribute.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// `template` with each `{name}` replaced; what is put in is not looked at again.
+pub fn fill(template: &str, parts: &[(&str, String)]) -> String {
+    let size = template.len() + parts.iter().map(|(_, part)| part.len()).sum::<usize>();
+    let mut page = String::with_capacity(size);
+    let mut rest = template;
+    for (name, part) in parts {
+        let place = format!("{{{name}}}");
+        let (before, after) =
+            rest.split_once(&place).expect("the template has every part once, in order");
+        page += before;
+        page += part;
+        rest = after;
+    }
+    page + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_put_in_is_not_looked_at_again() {
+        let parts = [("a", "{b}".to_owned()), ("b", "2".to_owned())];
+        assert_eq!(fill("<{a}|{b}>", &parts), "<{b}|2>");
+    }
+}

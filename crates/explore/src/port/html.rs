@@ -1,0 +1,58 @@
+//! The code of each step as HTML that the page copies: lines that run at the step are lit, values
+//! have a place, and lines that depend on a condition name it as their class.
+
+use super::branches::Arm;
+use super::steps::PortStep;
+use super::{FoundFunction, FoundPart, PortSource};
+
+/// A template for each step of `source`.
+pub fn templates(source: &PortSource) -> String {
+    let template = |(step, parts): &(&PortStep, Vec<FoundPart>)| {
+        let PortStep { name, short, section, .. } = step;
+        let figures = parts.iter().map(|part| figure(&source.functions[part.function], part));
+        let figures: String = figures.collect();
+        format!(
+            "<template id=\"code-{name}\" data-short=\"{short}\" title=\"{section}\">{figures}\
+             </template>\n"
+        )
+    };
+    source.steps.iter().map(template).collect()
+}
+
+fn figure(function: &FoundFunction, part: &FoundPart) -> String {
+    let FoundFunction { name, file, first, .. } = function;
+    let lines = (0..function.lines.len()).map(|at| line(function, part, at));
+    let lines: String = lines.collect();
+    format!(
+        "<figure><figcaption><b>{name}</b> in {file}</figcaption><ol start=\"{first}\">{lines}</ol>\
+         </figure>"
+    )
+}
+
+fn line(function: &FoundFunction, part: &FoundPart, at: usize) -> String {
+    let text = &function.lines[at];
+    let is_in = |[first, last]: [usize; 2]| (first..=last).contains(&at);
+    let mut code = if text.is_empty() { " ".to_owned() } else { escape(text) };
+    let mut classes = if is_in(part.lit) { "lit".to_owned() } else { String::new() };
+    for arm in function.branches.iter().filter(|arm| is_in(arm.lines)) {
+        let Arm { condition, holds, code: within, .. } = arm;
+        let class = format!("{condition}-{holds}");
+        match within {
+            Some(words) => {
+                let words = escape(words);
+                code = code.replace(&words, &format!("<span class=\"{class}\">{words}</span>"));
+            }
+            None => classes = classes + " " + &class,
+        }
+    }
+    let comment = if text.trim().starts_with("//") { " class=\"comment\"" } else { "" };
+    let values = part.values.iter().filter(|(line, _)| *line == at);
+    let values: String = values
+        .map(|(_, key)| format!("<span class=\"value\" data-name=\"{key}\"></span>"))
+        .collect();
+    format!("<li class=\"{classes}\"><code{comment}>{code}</code>{values}</li>")
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
