@@ -1,18 +1,16 @@
 //! What a class of attackers can do: nothing.
 #![cfg(unix)]
 
-mod support;
-
 use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use serde_json::Value;
-use support::{
+use crate::support::{
     csv, folder, grades, mkfifo, program, reference_csv, remarks, run_line, stderr, stdout, write,
 };
+use serde_json::Value;
 
 /// A class in which half of all submissions attack.
 fn hostile_class(class: &Path, outside: &Path) -> Vec<String> {

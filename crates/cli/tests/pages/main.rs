@@ -8,8 +8,6 @@ mod markdown;
 mod measured;
 mod numbers;
 mod release;
-#[path = "../support/mod.rs"]
-mod support;
 mod words;
 
 use std::fs;
