@@ -23,6 +23,7 @@ mod plan;
 mod report;
 mod run;
 mod sandbox;
+mod scenes;
 mod sections;
 mod statistics;
 #[cfg(test)]
