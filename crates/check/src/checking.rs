@@ -10,7 +10,6 @@ use photon_list::record::Columns;
 use photon_mapping::assignment8;
 use variants::run::Run;
 
-use crate::compile::Workshop;
 use crate::error::CheckError;
 use crate::events::Notice;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
@@ -19,6 +18,7 @@ use crate::plan::PlanStep;
 use crate::report::{Builds, CheckReport, Whole};
 use crate::run::{Observed, run};
 use crate::sections;
+use crate::workshop::Workshop;
 
 /// How far apart two positions may be that count as one, as a part of the scene's longest edge.
 const TOLERANCE: f32 = 1e-4;

@@ -4,94 +4,20 @@ use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
-pub use crate::diagnostics::BuildError;
-use crate::diagnostics::{missing_header, missing_in_list, parse_error, paths_of_list};
+use crate::diagnostics::{BuildError, missing_header, missing_in_list, parse_error, paths_of_list};
 use crate::error::CheckError;
-use crate::find::{
-    CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER, beside, read_source,
-};
+use crate::find::{LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER};
 use crate::foreign::{file_directive, take_headers};
-use crate::headers::Headers;
-use crate::kit::{Kit, write};
-use crate::sandbox::{Exit, Limits, Program, RunOutcome, on_clock, search_path};
+use crate::kit::STANDARD;
+use crate::sandbox::Exit;
+use crate::workshop::Workshop;
 
 /// The framework's standard first; the other for those whose compiler let them use more. This
 /// name of C++20 is the one that older compilers know, too.
-const STANDARDS: [&str; 2] = ["-std=gnu++11", "-std=gnu++2a"];
-/// The signal for processor time that is used up.
-const SIGXCPU: i32 = 24;
-/// The compiler's memory, in MiB.
-const MEMORY: u64 = 3 << 10;
+const STANDARDS: [&str; 2] = [STANDARD, "-std=gnu++2a"];
 
-/// A submission in the folder in which it is compiled and run.
-#[derive(Debug)]
-pub struct Workshop<'kit> {
-    pub(crate) kit: &'kit Kit,
-    folder: tempfile::TempDir,
-    /// Folders of copies, and where the originals lie.
-    pub(crate) originals: Vec<(PathBuf, PathBuf)>,
-    /// The folder of all that was handed in.
-    pub(crate) root: Option<PathBuf>,
-    headers: Mutex<Headers>,
-    pub(crate) time: Duration,
-}
-
-impl<'kit> Workshop<'kit> {
-    /// Copies the two files, and the headers and sources beside them, to where the framework has
-    /// them.
-    ///
-    /// # Errors
-    /// When a file cannot be copied.
-    pub fn new(
-        kit: &'kit Kit,
-        light: &Path,
-        renderer: &Path,
-        submission: &CppSubmission,
-        time: Duration,
-    ) -> Result<Self, CheckError> {
-        let folder = kit.work_folder()?;
-        let mut originals = Vec::new();
-        for (file, name, home) in
-            [(light, LIGHT, LIGHT_FOLDER), (renderer, RENDERER, RENDERER_FOLDER)]
-        {
-            let place = folder.path().join("submission").join(home);
-            let unreadable = |source| CheckError::Unreadable { path: file.to_owned(), source };
-            for other in beside(file) {
-                let other_name = other.file_name().unwrap_or_default();
-                // Neither of the two may stand where the other belongs.
-                if other_name != LIGHT && other_name != RENDERER {
-                    // What cannot be read is missed by the compiler, if it is needed.
-                    if let Ok(content) = read_source(&other) {
-                        write(&place.join(other_name), &content)?;
-                    }
-                }
-            }
-            write(&place.join(name), &read_source(file).map_err(unreadable)?)?;
-            let original = file.parent().unwrap_or(Path::new("")).to_owned();
-            originals.push((place, original));
-        }
-        let headers = Mutex::new(Headers::new(kit, folder.path(), &submission.headers));
-        let root = submission.root.as_ref().and_then(|root| fs::canonicalize(root).ok());
-        Ok(Self { kit, folder, originals, root, headers, time })
-    }
-
-    /// The folder.
-    pub fn path(&self) -> &Path {
-        self.folder.path()
-    }
-
-    /// The headers that are included, were not handed in, and are no part of the stand-in.
-    pub fn missing_headers(&self) -> Vec<String> {
-        self.headers().missing()
-    }
-
-    pub(crate) fn headers(&self) -> MutexGuard<'_, Headers> {
-        self.headers.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
+impl Workshop<'_> {
     /// Compiles the harness and the submission; the path of the program.
     ///
     /// # Errors
@@ -100,30 +26,25 @@ impl<'kit> Workshop<'kit> {
     pub fn build(&self, jobs: usize) -> Result<Result<PathBuf, BuildError>, CheckError> {
         let submission = self.path().join("submission");
         let harness = self.kit.path().join("harness/all.cpp");
+        // The student's own files speak first: the harness fails where their headers do.
         let sources = [
-            harness.clone(),
             submission.join(RENDERER_FOLDER).join(RENDERER),
             submission.join(LIGHT_FOLDER).join(LIGHT),
+            harness.clone(),
         ];
-        let results: Vec<_> = if jobs > 1 {
+        let compile = |source: &PathBuf| self.compile_one(source, &harness);
+        let mut early = Vec::new();
+        if jobs > 1 {
             std::thread::scope(|scope| {
-                let harness = &harness;
-                let running: Vec<_> = sources
-                    .iter()
-                    .map(|source| scope.spawn(move || self.compile_one(source, harness)))
-                    .collect();
-                running.into_iter().map(|one| one.join().expect("no compilation panics")).collect()
-            })
-        } else {
-            sources.iter().map(|source| self.compile_one(source, &harness)).collect()
-        };
-        // The student's own files speak first: the harness fails where their headers do.
-        let mut results = results.into_iter();
-        let of_harness = results.next().expect("the harness is first");
+                let running = sources.each_ref().map(|source| scope.spawn(|| compile(source)));
+                early.extend(running.map(|one| one.join().expect("no compilation panics")));
+            });
+        }
+        let mut early = early.into_iter();
         let mut objects = Vec::new();
         let mut others = BTreeSet::new();
-        for result in results.chain([of_harness]) {
-            match result? {
+        for source in &sources {
+            match early.next().unwrap_or_else(|| compile(source))? {
                 Ok(object) => {
                     others.extend(object.sources);
                     objects.push(object.path);
@@ -240,14 +161,7 @@ impl<'kit> Workshop<'kit> {
 
     /// The compiler with all options but those for its output.
     fn command(&self, attempt: &Invocation<'_>) -> Vec<OsString> {
-        let mut command: Vec<OsString> = vec![self.kit.compiler.clone().into()];
-        // -O1 takes the least time to compile and run together.
-        for option in [attempt.standard, "-O1", "-w", "-fdiagnostics-color=never"] {
-            command.push(option.into());
-        }
-        for define in ["-DGLM_FORCE_CTOR_INIT", "-DGLM_ENABLE_EXPERIMENTAL"] {
-            command.push(define.into());
-        }
+        let mut command = self.kit.command(attempt.standard);
         if attempt.is_harness {
             command.push("-fno-access-control".into());
         }
@@ -273,43 +187,11 @@ impl<'kit> Workshop<'kit> {
         let mut command = self.command(attempt);
         command.extend(["-M", "-MG"].map(OsString::from));
         command.push(attempt.source.into());
-        let list = self.run_for_output(command)?;
-        self.headers().supply(missing_in_list(&list))
-    }
-
-    pub(crate) fn run(&self, command: Vec<OsString>) -> Result<RunOutcome, CheckError> {
-        let (processor, time) = (self.time, on_clock(self.time));
-        let limits = Limits { time, processor, memory: MEMORY, file_blocks: 1 << 19 };
-        let mut outcome = self.program(command).run(limits, |_| Some(time))?;
-        // GCC says so of the process that it started; clang crashes.
-        let is_signal = outcome.ending == Exit::Signal(SIGXCPU);
-        if is_signal || outcome.printed.to_lowercase().contains("time limit exceeded") {
-            outcome.ending = Exit::TimeOut;
-        }
-        Ok(outcome)
-    }
-
-    /// What `command` writes to its standard output.
-    fn run_for_output(&self, mut command: Vec<OsString>) -> Result<String, CheckError> {
         let list = self.path().join("missing.d");
         command.extend(["-MF".into(), list.clone().into()]);
         self.run(command)?;
-        Ok(fs::read_to_string(&list).unwrap_or_default())
-    }
-
-    fn program(&self, command: Vec<OsString>) -> Program {
-        let path = search_path(&self.kit.compiler);
-        let temporary: OsString = self.path().into();
-        Program {
-            command,
-            folder: self.path().to_owned(),
-            environment: vec![
-                ("PATH".to_owned(), path),
-                ("LC_ALL".to_owned(), "C".into()),
-                ("TMPDIR".to_owned(), temporary),
-            ],
-            writes: true,
-        }
+        let list = fs::read_to_string(&list).unwrap_or_default();
+        self.headers().supply(missing_in_list(&list))
     }
 }
 

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use grading::text::printable;
 use serde::Serialize;
 
-use crate::compile::Workshop;
 use crate::error::CheckError;
 use crate::sandbox::{Exit, RunOutcome};
+use crate::workshop::Workshop;
 
 /// Why a submission does not build.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

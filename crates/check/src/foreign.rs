@@ -4,7 +4,7 @@
 use std::path::{Component, Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::compile::Workshop;
+use crate::workshop::Workshop;
 
 /// What assembler code reads files with, or may spell the names of such directives with.
 const DIRECTIVES: [&str; 5] = [".incbin", ".include", ".macro", ".irp", ".altmacro"];
@@ -38,6 +38,8 @@ pub(crate) fn take_headers(printed: &mut String) -> Vec<String> {
             Some((dots, path)) if !dots.is_empty() && dots.bytes().all(|byte| byte == b'.') => {
                 headers.push(path.to_owned());
             }
+            // Precompiled: taken, or not fit to be taken.
+            Some(("!" | "x", path)) if path.ends_with(".gch") => headers.push(path.to_owned()),
             // GCC's advice about headers ends the list.
             None if line.starts_with('/') => {}
             _ if line.starts_with("Multiple include guards") => {}
@@ -111,10 +113,14 @@ mod tests {
 
     #[test]
     fn headers_are_told_from_messages() {
-        let mut printed = ". /usr/include/a.h\n... /usr/include/a b.h\n/x/a.cpp:1:2: error: no\n\
+        let mut printed =
+            ". /usr/include/a.h\n! /k/a.h.gch\n... /usr/include/a b.h\n/x/a.cpp:1:2: error: no\n\
                            Multiple include guards may be useful for:\n/usr/include/a.h\n"
-            .to_owned();
-        assert_eq!(take_headers(&mut printed), ["/usr/include/a.h", "/usr/include/a b.h"]);
+                .to_owned();
+        assert_eq!(
+            take_headers(&mut printed),
+            ["/usr/include/a.h", "/k/a.h.gch", "/usr/include/a b.h"]
+        );
         assert_eq!(printed, "/x/a.cpp:1:2: error: no\n");
     }
 

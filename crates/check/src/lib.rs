@@ -8,7 +8,7 @@
 //! [`sandbox`].
 
 mod checking;
-pub mod compile;
+mod compile;
 mod diagnostics;
 pub mod error;
 mod events;
@@ -20,13 +20,19 @@ pub mod kit;
 mod link;
 mod messages;
 mod plan;
-pub mod report;
-pub mod run;
+mod report;
+mod run;
 mod sandbox;
-pub mod sections;
+mod scenes;
+mod sections;
 mod statistics;
+#[cfg(test)]
+mod tests;
 pub mod text;
 pub mod wall;
+mod workshop;
 
 pub use checking::{CheckSettings, check};
-pub use report::CheckReport;
+pub use diagnostics::BuildError;
+pub use report::{Builds, CheckReport, Whole};
+pub use sections::{Fault, SectionVerdict, Status};

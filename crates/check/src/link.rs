@@ -6,13 +6,13 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::compile::Workshop;
 use crate::diagnostics::{
     BuildError, defined_twice, first_line, last_word, paths_of_list, undefined_names,
 };
 use crate::error::CheckError;
 use crate::find::{LIGHT, RENDERER, SOURCES};
 use crate::sandbox::Exit;
+use crate::workshop::Workshop;
 
 /// So many sources besides the two are compiled at most.
 const MOST_SOURCES: usize = 20;

@@ -5,7 +5,7 @@ use compare::report::Outcome;
 use photon_list::reader::PhotonList;
 use serde::Serialize;
 
-use crate::compile::BuildError;
+use crate::diagnostics::BuildError;
 use crate::sections::SectionVerdict;
 
 /// Whether the submission builds.

@@ -152,6 +152,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
         );
     }
     let kit = Kit::new(arguments.glm.as_deref()).map_err(argument)?;
+    kit.prepare_for(found.len());
     let settings = CheckSettings {
         time: Duration::from_secs(arguments.timeout),
         // A class keeps all cores busy by itself.

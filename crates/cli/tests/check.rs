@@ -1,15 +1,13 @@
 //! `check` as a grader runs it, on a solution written as a student would.
 #![cfg(unix)]
 
-mod support;
-
 use std::fs;
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use support::{fails, folder, json, program, run_line, stdout};
+use crate::support::{fails, folder, json, program, run_line, stdout};
 
 fn solution() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../check/tests/submissions/one_function")

@@ -1,12 +1,10 @@
 //! `compare` as a user runs it.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::support::{fails, folder, json, reference_csv, run_line, stdout};
 use serde_json::Value;
-use support::{fails, folder, json, reference_csv, run_line, stdout};
 
 /// The reference list of 20,000 photons with the lines changed by `change` (the header first),
 /// written beside it.

@@ -1,16 +1,14 @@
 //! `explain` as a user runs it, and its numbers against those of the list.
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::{fails, json, run_line, stdout};
 use compare::explain::{Ending, Story, explain, first_that_stores};
 use model::placement::Placement;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::Scene;
 use photon_mapping::scene::point_light::PointLight;
-use support::{fails, json, run_line, stdout};
 use variants::run::Run;
 
 fn records_of(list: &[PhotonRecord], photon: u64) -> Vec<&PhotonRecord> {

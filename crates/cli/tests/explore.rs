@@ -1,11 +1,9 @@
 //! `explore` as a user runs it.
 
-mod support;
-
 use std::fs;
 
+use crate::support::{fails, folder, reference_csv, run_line, stdout};
 use assert_cmd::Command;
-use support::{fails, folder, reference_csv, run_line, stdout};
 
 #[test]
 fn the_page_is_written_and_its_path_printed() {

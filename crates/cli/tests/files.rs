@@ -1,8 +1,6 @@
 //! What is written where, and what a class of attackers can do: nothing.
 #![cfg(unix)]
 
-mod support;
-
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
@@ -10,10 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
-use support::{
+use crate::support::{
     csv, fails, folder, grades, json, mkfifo, program, remarks, run_line, stderr, write,
 };
+use serde_json::Value;
 
 /// A list of few photons in `folder`.
 fn few(folder: &Path) -> PathBuf {
@@ -249,7 +247,7 @@ fn own_lists_are_told_to_the_course_alone() {
     let gradescope = json(run_line("grade --format gradescope {}", &[&list]).success());
     let tests = gradescope["tests"].to_string() + gradescope["output"].as_str().unwrap();
     assert!(!tests.contains(told), "{tests}");
-    let page = support::stdout(run_line("grade --format html {}", &[&list]).success());
+    let page = crate::support::stdout(run_line("grade --format html {}", &[&list]).success());
     assert!(!page.contains(told));
     let other = write(folder.path().join("b.csv"), csv(5000, 60_000));
     assert!(grades(&[], &[&other])[0].get("for_course").is_none());

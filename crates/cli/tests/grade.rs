@@ -1,20 +1,18 @@
 //! `grade` on what students hand in: folders and pairs, other programs' lists, and files that are
 //! none.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use crate::support::{fails, folder, json, run};
 use classroom::class::grade_one;
 use classroom::intake::{Folders, HandedIn};
 use grading::submission::{Settings, Submission, unreadable};
 use grading::verdict::Verdict;
 use photon_list::reader::load_at_most;
 use serde_json::Value;
-use support::{fails, folder, json, run};
 
 const PHOTONS: u64 = 60_000;
 
@@ -276,7 +274,7 @@ fn a_mistyped_path_is_no_students_fault() {
     let folder = folder();
     let (list, missing) =
         (write(folder.path().join("list.csv"), csv()), folder.path().join("lits"));
-    let assert = support::run_line("grade --format json {} {}", &[&missing, &list]).code(2);
+    let assert = crate::support::run_line("grade --format json {} {}", &[&missing, &list]).code(2);
     let error = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
     assert!(error.contains("lits: no such file") && error.lines().count() == 1, "{error}");
     let grades = json(assert);

@@ -1,16 +1,14 @@
 //! What `grade` writes for machines, for Gradescope, and for people: in a browser, too.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::support::{fails, folder, json, run_line, stdout};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};
-use support::{fails, folder, json, run_line, stdout};
 use variants::variation::{Hemisphere, Simulation, Storage, Variation};
 
 const PHOTONS: u64 = 60_000;
@@ -297,7 +295,7 @@ fn photons_straight_from_the_light_are_not_plausible() {
 #[test]
 fn incoming_directions_are_shown_where_they_are_given() {
     let folder = folder();
-    let with = support::reference_csv(folder.path(), 60_000);
+    let with = crate::support::reference_csv(folder.path(), 60_000);
     let text = fs::read_to_string(&with).unwrap();
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     let of = |line: &str, is_kept: &dyn Fn(&str) -> bool| -> String {

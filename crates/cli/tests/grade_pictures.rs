@@ -2,13 +2,13 @@
 
 #[path = "../../grading/examples/common/simulated_pictures.rs"]
 mod simulated_pictures;
-mod support;
 
 use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use crate::support::{folder, json, run_line};
 use glam::Vec3;
 use grading::expected::Groups;
 use grading::picture::dot_size::DotSize;
@@ -25,7 +25,6 @@ use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use serde_json::Value;
 use simulated_pictures::{misread, simulate_dots};
-use support::{folder, json, run_line};
 use variants::hypotheses::fair_readings;
 use variants::variation::{Emission, Hemisphere, Roulette, Simulation, Variation};
 
@@ -503,7 +502,7 @@ fn dots_straight_from_the_light_are_not_plausible() {
 fn a_list_and_a_picture_of_one_student() {
     let folder = folder();
     let at = |name: &str| folder.path().join(name);
-    let list = support::reference_csv(folder.path(), 200_000);
+    let list = crate::support::reference_csv(folder.path(), 200_000);
     let text = fs::read_to_string(&list).expect("it is there");
     let all = expectations();
     let checks = |grade: &Value| -> Vec<String> {

@@ -1,12 +1,10 @@
 //! Grades for a gradebook: rosters, exports, CSV, names hidden, and what a regrade changed.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::support::{fails, folder, reference_csv, run, run_line, stdout};
 use serde_json::Value;
-use support::{fails, folder, reference_csv, run, run_line, stdout};
 use tempfile::TempDir;
 
 /// A class: `good` photons for the first file, none of the photons' columns for all others.

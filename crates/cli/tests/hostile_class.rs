@@ -1,18 +1,16 @@
 //! What a class of attackers can do: nothing.
 #![cfg(unix)]
 
-mod support;
-
 use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use serde_json::Value;
-use support::{
+use crate::support::{
     csv, folder, grades, mkfifo, program, reference_csv, remarks, run_line, stderr, stdout, write,
 };
+use serde_json::Value;
 
 /// A class in which half of all submissions attack.
 fn hostile_class(class: &Path, outside: &Path) -> Vec<String> {
@@ -177,18 +175,24 @@ fn kill_leaves_each_file_whole_or_as_it_was() {
     for seed in 0..4 {
         write(at(&format!("class/student-{seed}/photons.csv")), csv(seed, 5_000));
     }
-    let mut delay = 17;
-    for _ in 0..100 {
+    fs::create_dir(at("out")).unwrap();
+    let changed = || fs::metadata(at("out")).unwrap().modified().unwrap();
+    let mut seen_half_done = false;
+    for number in 0..30 {
+        let before = changed();
         let mut child = program(folder.path())
             .args(["grade", "--class", "class", "--format", "gradescope", "--out", "out"])
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        delay = delay * 31 % 409;
-        std::thread::sleep(Duration::from_millis(delay));
+        // Until it writes its first file there is nothing to break.
+        while changed() == before && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        std::thread::sleep(Duration::from_micros(number % 10 * 100));
         let _ = child.kill();
-        child.wait().unwrap();
-        for entry in fs::read_dir(at("out")).into_iter().flatten() {
+        seen_half_done |= !child.wait().unwrap().success();
+        for entry in fs::read_dir(at("out")).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_some_and(|extension| extension == "json") {
                 let results = serde_json::from_slice::<Value>(&fs::read(&path).unwrap());
@@ -196,6 +200,7 @@ fn kill_leaves_each_file_whole_or_as_it_was() {
             }
         }
     }
+    assert!(seen_half_done);
     let line = "grade --class {} --format gradescope --out {}";
     run_line(line, &[&at("class"), &at("out")]).success();
     assert_eq!(fs::read_dir(at("out")).unwrap().count(), 4, "nothing unfinished is left");

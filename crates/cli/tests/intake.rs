@@ -1,18 +1,16 @@
 //! Which of the files that a grader names are whose submission, and what no output may replace.
 #![cfg(unix)]
 
-mod support;
-
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use serde_json::Value;
-use support::{
+use crate::support::{
     csv, fails, folder, grades, json, program, remarks, run_line, stderr, stdout, write,
 };
+use serde_json::Value;
 use variants::variation::{Hemisphere, Simulation, Variation};
 
 /// Asks `grade` for `name` in `folder`, which must be refused with both readings and each of

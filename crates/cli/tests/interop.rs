@@ -1,15 +1,13 @@
 //! C++ against the reference: the headers of `interop/cpp`, and `compare` on lists made with them.
 
-mod support;
-
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
+use crate::support::{folder, json, run_line};
 use photon_list::reader::load;
 use photon_mapping::random::photon_random;
-use support::{folder, json, run_line};
 
 const PHOTONS: &str = "60000";
 

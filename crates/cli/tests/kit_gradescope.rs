@@ -2,17 +2,15 @@
 //! lets us make one, else in a folder of its own.
 #![cfg(unix)]
 
-mod support;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
+use crate::support::{folder, reference_csv, run_line};
 use grading::policy::Policy;
 use serde_json::{Value, json};
-use support::{folder, reference_csv, run_line};
 use tempfile::TempDir;
 use variants::section::Section;
 

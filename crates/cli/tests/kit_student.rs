@@ -1,14 +1,12 @@
 //! The edition for students: what fails at first, what each section turns green, and that nothing
 //! in it gives the answer away.
 
-mod support;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use support::{fails, folder, run_line, stdout};
+use crate::support::{fails, folder, run_line, stdout};
 
 /// The handout's sections, each with the file to write it in and the module of its tests.
 const SECTIONS: [(&str, &str, &str); 5] = [

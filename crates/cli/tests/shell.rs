@@ -1,8 +1,6 @@
 //! Completions, manual pages, the version, tips, and `-q` on either side of the verb.
 
-mod support;
-
-use support::{fails, folder, run_line, stdout};
+use crate::support::{fails, folder, run_line, stdout};
 
 const VERBS: [&str; 9] =
     ["render", "check", "compare", "explain", "explore", "grade", "expect", "merge", "kit"];

@@ -2,15 +2,13 @@
 //! requeued, the parts make up the golden list.
 #![cfg(unix)]
 
-mod support;
-
 use std::fs;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use support::{folder, run, stdout};
+use crate::support::{folder, run, stdout};
 
 /// What the tests' Slurm is: no accounting, no control groups, programs that run as they are
 /// started.

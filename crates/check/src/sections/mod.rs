@@ -1,10 +1,12 @@
 //! What the submission does in each section of the handout, each by itself.
 
 mod around;
-pub mod directions;
+mod directions;
 mod emission;
+mod limit;
 mod sampling;
 mod scattering;
+mod start;
 mod storage;
 mod transformation;
 mod turns;

@@ -1,15 +1,12 @@
 //! Lists of a program that shares nothing with the port, right and wrong in many ways, are judged
 //! and named as `cases.csv` says.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::support::{folder, json, run};
 use rayon::prelude::*;
 use serde::Deserialize;
-use support::{folder, json, run};
 
 #[derive(Deserialize)]
 struct Case {

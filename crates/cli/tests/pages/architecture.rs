@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use crate::{project_files, read, root};
+use super::{project_files, read, root};
 
 const ROOT: &str = "photon-mapping";
 

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::markdown::{code_blocks, code_spans};
+use super::markdown::{code_blocks, code_spans};
+use super::{pages, read};
 use crate::support::{folder, run_line, stdout};
-use crate::{pages, read};
 
 /// Options that pages name of GNU parallel, of the C++ example, and of examples in Rust.
 const OPTIONS_OF_OTHERS: [&str; 5] =

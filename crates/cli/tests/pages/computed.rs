@@ -9,9 +9,9 @@ use photon_mapping::rendering::photon_mapping_renderer::PathVertex;
 use photon_mapping::scene::triangle::Triangle;
 use serde_json::Value;
 
-use crate::markdown::code_blocks;
-use crate::numbers::is_rounded;
-use crate::read;
+use super::markdown::code_blocks;
+use super::numbers::is_rounded;
+use super::read;
 use crate::support::{folder, json, run_line, stdout};
 
 /// The numbers at the `#`s of `words`, if `text` starts with these.

@@ -1,8 +1,8 @@
 //! How sure the grader is: what pages say is what the tables in `golden/` have.
 
-use crate::computed::assert_says;
-use crate::numbers::table;
-use crate::read;
+use super::computed::assert_says;
+use super::numbers::table;
+use super::read;
 
 /// The rows of a section, without spaces and the commas of large numbers.
 fn rows(page: &str, heading: &str) -> Vec<Vec<String>> {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::markdown::{anchors, links};
-use crate::{pages, read, root};
+use super::markdown::{anchors, links};
+use super::{pages, read, root};
 
 /// The page of releases, as the README's page on GitHub sees it.
 const RELEASES: &str = "../../releases";

@@ -10,8 +10,6 @@ mod measured;
 mod numbers;
 mod release;
 mod speed;
-#[path = "../support/mod.rs"]
-mod support;
 mod words;
 
 use std::fs;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::computed::assert_says;
-use crate::numbers::{assert_rounded, csv, is_rounded, table};
-use crate::read;
+use super::computed::assert_says;
+use super::numbers::{assert_rounded, csv, is_rounded, table};
+use super::read;
 
 /// The errors on the page are those of `report --long`, which repeat to the last digit.
 #[test]

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::markdown::links;
-use crate::read;
+use super::markdown::links;
+use super::read;
 
 /// The numbers of the README's last table are on the pages that it gives as evidence.
 #[test]

@@ -1,6 +1,6 @@
 //! The release workflow, and what `cargo binstall` is told of its archives.
 
-use crate::read;
+use super::read;
 
 /// The values of the lines `key: value` of `text`, without quotes.
 fn values<'a>(text: &'a str, key: &str) -> Vec<&'a str> {

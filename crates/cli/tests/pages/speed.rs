@@ -1,8 +1,8 @@
 //! Numbers of the pages on speed: what the benches printed is kept beside them.
 
-use crate::computed::assert_says;
-use crate::numbers::{csv, is_rounded, table};
-use crate::read;
+use super::computed::assert_says;
+use super::numbers::{csv, is_rounded, table};
+use super::read;
 
 /// The rows of `results/program.csv`, which `program.py` wrote: median, least and greatest.
 fn program(what: &str) -> [f64; 3] {

@@ -1,7 +1,7 @@
 //! The wording of pages, and the width of their lines and of the code's.
 
-use crate::markdown::texts;
-use crate::{pages, project_files, read};
+use super::markdown::texts;
+use super::{pages, project_files, read};
 
 const LONGEST_SENTENCE: usize = 30;
 const WIDEST_LINE: usize = 100;

@@ -1,12 +1,10 @@
 //! Programs whose `TracePhoton` needs what `GenericPhotonMapGeneration` does before: a flag of its
 //! own, or the loop around it. They are judged by what they do in a run.
 
-mod support;
-
-use check::sections::Status;
+use crate::sections::Status;
 use variants::section::Section;
 
-use support::{faults, report, sections_text};
+use super::{faults, report, sections_text};
 
 type Changes = &'static [(&'static str, &'static str)];
 

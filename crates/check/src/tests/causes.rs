@@ -1,11 +1,9 @@
 //! One mistake is told once, under its section, with its cause.
 
-mod support;
-
-use check::CheckReport;
+use crate::report::CheckReport;
 use variants::section::Section;
 
-use support::{faults, report, sections_text};
+use super::{faults, report, sections_text};
 
 /// Checks that `report` tells one fault in this section, with this name and these words.
 fn tells(report: &CheckReport, section: Section, name: Option<&str>, words: &str) {

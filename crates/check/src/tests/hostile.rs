@@ -1,15 +1,14 @@
 //! Code that misbehaves: one clear line under the section in which it happened, and the rest is
 //! judged.
 
-mod support;
-
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use check::compile::Workshop;
-use check::find::CppSubmission;
-use check::run::run;
-use check::sections::{Status, judge};
+use super::{handed_in, kit, named};
+use crate::find::CppSubmission;
+use crate::run::run;
+use crate::sections::{Status, judge};
+use crate::workshop::Workshop;
 
 /// How long a whole run may take at most.
 const TIME: Duration = Duration::from_secs(60);
@@ -43,16 +42,15 @@ const DEEDS: [(&str, &str); 20] = [
 
 #[test]
 fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
-    let Some(kit) = support::kit() else { return };
-    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
-    let light = tests.join("hostile/PointLight.cpp");
-    let renderer = tests.join("submissions/one_function/PhotonMappingRenderer.cpp");
+    let Some(kit) = kit() else { return };
+    let light = handed_in().join("hostile/PointLight.cpp");
+    let renderer = handed_in().join("submissions/one_function/PhotonMappingRenderer.cpp");
     let submission = CppSubmission::of_files(&light, &renderer);
     let workshop = Workshop::new(kit, &light, &renderer, &submission, Duration::from_secs(60));
     let workshop = workshop.expect("a workshop");
     let program = workshop.build(1).expect("a compiler").expect("it compiles");
     let observed = |deed: &str| {
-        let program = support::named(&program, deed);
+        let program = named(&program, deed);
         run(&program, workshop.path(), 100, TIME).expect("it runs")
     };
     for (deed, words) in DEEDS {

@@ -1,16 +1,15 @@
 //! The same mistakes in programs of different styles: every section's verdict is right, whatever a
 //! student writes around it. Each program is compiled once; its name says which mistake it makes.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use check::compile::Workshop;
-use check::find::CppSubmission;
-use check::run::run;
-use check::sections::{SectionVerdict, Status, judge};
+use super::{handed_in, kit, named};
+use crate::find::CppSubmission;
+use crate::run::run;
+use crate::sections::{SectionVerdict, Status, judge};
+use crate::workshop::Workshop;
 use variants::section::Section;
 
 const TIME: Duration = Duration::from_secs(60);
@@ -50,8 +49,8 @@ fn faults(verdicts: &[SectionVerdict]) -> Vec<(Section, &'static str)> {
 
 /// What is wrong with the verdicts on all mistakes in the style `name`.
 fn try_style(name: &str) {
-    let Some(kit) = support::kit() else { return };
-    let styles = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/styles");
+    let Some(kit) = kit() else { return };
+    let styles = handed_in().join("styles");
     let folder = tempfile::tempdir().expect("a folder");
     let copy = |from: &Path| {
         let to = folder.path().join(from.file_name().expect("a name"));
@@ -68,7 +67,7 @@ fn try_style(name: &str) {
     let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("a workshop");
     let program = workshop.build(1).expect("a compiler").expect("it compiles");
     let verdicts = |mistake: u8| {
-        let program = support::named(&program, &mistake.to_string());
+        let program = named(&program, &mistake.to_string());
         judge(&run(&program, workshop.path(), 100, TIME).expect("it runs"))
     };
     let mut wrong = Vec::new();

@@ -2,14 +2,12 @@
 //! each gets the right answer. The files are whole, with the framework's given functions, because
 //! that is what `check` has to read.
 
-mod support;
-
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use check::find::CppSubmission;
-use check::sections::Status;
-use check::{CheckSettings, check};
+use super::{handed_in, kit};
+use crate::checking::{CheckSettings, check};
+use crate::find::CppSubmission;
+use crate::sections::Status;
 
 /// Folder, what is in it, and for emission, storage, scattering, sampling and transformation `+`
 /// where it is right and `x` where it is wrong.
@@ -30,8 +28,8 @@ const SOLUTIONS: [(&str, &str, &str); 12] = [
 
 #[test]
 fn every_section_of_other_solutions_gets_its_answer() {
-    let Some(kit) = support::kit() else { return };
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_solutions");
+    let Some(kit) = kit() else { return };
+    let folder = handed_in().join("other_solutions");
     let next = AtomicUsize::new(0);
     let work = || {
         while let Some((name, what, expected)) = SOLUTIONS.get(next.fetch_add(1, Ordering::Relaxed))

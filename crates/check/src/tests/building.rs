@@ -1,0 +1,182 @@
+//! What is found, compiled and linked of what is handed in, and what is not.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
+use std::process::Command;
+use std::time::Duration;
+
+use variants::section::Section;
+
+use super::{faults, handed_in, kit, read, report, report_on, sections_text};
+use crate::checking::{CheckSettings, check};
+use crate::find::CppSubmission;
+use crate::kit::{FIRST_HEADERS, Kit, STANDARD};
+use crate::report::Builds;
+use crate::sections::Status;
+
+#[test]
+fn a_missing_name_is_told_with_file_and_line() {
+    let Some(report) = report(&[("sum = x * x", "sum = RandFloat01() + x * x")]) else { return };
+    let Builds::No(error) = &report.builds else { panic!("it builds: {report:?}") };
+    assert_eq!(error.file.as_deref(), Some("PointLight.cpp"));
+    assert_eq!(error.missing.as_deref(), Some("RandFloat01"));
+    assert!(error.line.is_some());
+}
+
+/// A whole checkout of the framework, with a helper of the student's own in another folder, in a
+/// folder with a space in its name. Headers are included that nobody needs, or in other letters.
+#[test]
+fn a_checkout_brings_its_own_helpers() {
+    let light = read("PointLight.cpp").replace("((float)rand() / RAND_MAX)", "RandFloat01()");
+    let light = format!(
+        "#include \"utility\\Utils.h\"\n#include <SDL2/SDL.h>\n\
+         #include \"../Area/AreaLight.h\"\n{light}"
+    );
+    let area_light = "#pragma once\n#include \"common/Scene/Lights/Light.h\"\n\
+                      class AreaLight : public Light { int Area() const override; };\n";
+    let utils = "#include \"common/Utility/utils.h\"\n#include <cstdlib>\n\
+                 float RandFloat01() { return rand() / (float)RAND_MAX; }\n";
+    let of = |text: &str| text.as_bytes().to_vec();
+    let report = report_on(&[
+        ("my homework/common/Scene/Lights/Point/PointLight.cpp", of(&light)),
+        (
+            "my homework/common/Rendering/Renderer/Photon/PhotonMappingRenderer.cpp",
+            of(&read("PhotonMappingRenderer.cpp")),
+        ),
+        ("my homework/common/Utility/utils.h", of("#pragma once\nfloat RandFloat01();\n")),
+        ("my homework/common/Utility/utils.cpp", of(utils)),
+        // What the framework has and the stand-in does not need is of no interest.
+        ("my homework/common/Scene/Lights/Area/AreaLight.h", of(area_light)),
+        ("my homework/common/Scene/Lights/Area/AreaLight.cpp", of("#error nor is this compiled\n")),
+        ("my homework/main.cpp", of("#error this is not compiled\n")),
+        ("my homework/common/common.h", of("#error nor is this read\n")),
+    ]);
+    let Some(report) = report else { return };
+    assert_eq!(report.builds, Builds::Yes);
+    let statuses: Vec<_> = report.sections.iter().map(|verdict| verdict.status).collect();
+    assert_eq!(statuses, [Status::Right; 5], "{}", sections_text(&report));
+    assert!(report.whole.is_reference(), "{:?}", report.whole.sentence(&report.sections));
+    let remark = report.remarks.iter().find(|remark| remark.contains("SDL2/SDL.h"));
+    assert!(remark.is_some_and(|remark| !remark.contains("Utils.h")), "{:?}", report.remarks);
+}
+
+/// Systems for handing in rename files, and some editors write UTF-16.
+#[test]
+fn renamed_files_in_utf_16_are_found() {
+    let number = "(float)rand() / RAND_MAX >= pr";
+    let renderer = read("PhotonMappingRenderer.cpp").replace(number, "rand() / RAND_MAX >= pr");
+    let utf_16 = std::iter::once(0xfeff).chain(renderer.encode_utf16());
+    let report = report_on(&[
+        ("doe_PointLight-1.cpp", read("PointLight.cpp").into_bytes()),
+        ("doe_Renderer.cpp", utf_16.flat_map(u16::to_le_bytes).collect()),
+    ]);
+    let Some(report) = report else { return };
+    // Dividing two integers makes the roulette's number 0.
+    let expected = [(Section::PhotonScatteringAbsorption, Some("no-roulette"))];
+    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
+}
+
+/// What lies outside of the submission is shown to nobody, whatever reads it.
+#[test]
+fn files_that_were_not_handed_in_are_not_read() {
+    let outside = tempfile::tempdir().expect("a folder");
+    let secret = outside.path().join("secret.h");
+    fs::write(&secret, "hunter2 = no_type;\n").expect("can be written");
+    let secret = secret.display();
+    let at_top = [
+        format!("#include \"{secret}\"\n"),
+        format!("#include \"/usr/include/../..{secret}\"\n"),
+        format!("#define TEXT \"{secret}\"\n#include TEXT\n"),
+        format!("#line 1 \"{secret}\"\nnonsense value;\n"),
+        format!("#define TEXT(x) #x\nconst char* text = TEXT(\n#include \"{secret}\"\n);\n"),
+        format!("#ifdef NO\n#endif\n#include \"{secret}\"\n#error stop\n"),
+        format!("__asm__(\".incbin \\\"{secret}\\\"\");\n"),
+        format!("__asm__(\".include \\\"{secret}\\\"\");\n"),
+        format!("__asm__(\".macro m a\\n.inc\\\\a \\\"{secret}\\\"\\n.endm\\nm bin\");\n"),
+        format!(
+            "__attribute__((section(\".text\\n.incbin \\\"{secret}\\\"\\n.section a\")))\
+                 void put() {{}}\n"
+        ),
+        "__asm__(\"no_such_instruction\");\n".to_owned(),
+    ];
+    for first in at_top {
+        let report = report_on(&[
+            ("PointLight.cpp", (first.clone() + &read("PointLight.cpp")).into_bytes()),
+            ("PhotonMappingRenderer.cpp", read("PhotonMappingRenderer.cpp").into_bytes()),
+        ]);
+        let Some(report) = report else { return };
+        let Builds::No(error) = &report.builds else { panic!("{first} builds: {report:?}") };
+        assert!(!format!("{report:?}").contains("hunter2"), "{first}: {report:?}");
+        let is_told = ["not handed in", "assembler code", "nonsense", "not supported"];
+        assert!(is_told.iter().any(|words| error.message.contains(words)), "{first}: {error:?}");
+    }
+}
+
+#[test]
+fn a_compiler_that_never_ends_is_ended() {
+    let Some(kit) = kit() else { return };
+    let endless = "template <int n, class T> struct Tree { static const int count = \
+                   Tree<n - 1, T*>::count ^ Tree<n - 1, T[2]>::count; };\n\
+                   template <class T> struct Tree<0, T> { static const int count = 1; };\n\
+                   static const int count = Tree<40, char>::count;\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+        fs::write(folder.path().join(name), endless).expect("can be written");
+    }
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
+    let time = Duration::from_secs(2);
+    let settings = CheckSettings { time, ..CheckSettings::default() };
+    let report = check(&submission, kit, &settings).expect("it can be checked");
+    let told = report.builds.sentence();
+    assert!(told.contains("needs more than 2 s of processor time"), "{told}");
+}
+
+#[test]
+fn a_compiler_that_waits_for_a_busy_machine_has_time() {
+    if kit().is_none() {
+        return;
+    }
+    let mut kit = Kit::new(None).expect("there was one");
+    let folder = tempfile::tempdir().expect("a folder");
+    let slow = folder.path().join("slow");
+    let script = format!(
+        "#!/bin/sh\ncase \"$*\" in *PointLight.cpp) sleep 5;; esac\nexec {} \"$@\"\n",
+        kit.compiler.display()
+    );
+    fs::write(&slow, script).expect("can be written");
+    fs::set_permissions(&slow, fs::Permissions::from_mode(0o755)).expect("can be changed");
+    kit.compiler = slow;
+    let submission =
+        CppSubmission::find(&handed_in().join("submissions/one_function")).expect("one");
+    let settings =
+        CheckSettings { time: Duration::from_secs(4), photons: 100, ..CheckSettings::default() };
+    let report = check(&submission, &kit, &settings).expect("it can be checked");
+    assert_eq!(report.builds, Builds::Yes);
+}
+
+/// What stands before the first header changes it, so that it is read anew.
+#[test]
+fn headers_are_precompiled_for_what_includes_them_as_they_are() {
+    let Some(kit) = kit() else { return };
+    if kit.is_clang {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let submission = folder.path().join("one.cpp");
+    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
+        for (first, is_taken) in [("// one\n", true), ("#define private public\n", false)] {
+            fs::write(&submission, first.to_owned() + &read(name)).expect("can be written");
+            let command = kit.command(STANDARD);
+            let mut compiler = Command::new(&command[0]);
+            compiler.args(&command[1..]).arg("-I").arg(kit.path().join("standin"));
+            compiler.args(["-H", "-S", "-o", "/dev/null"]).arg(&submission);
+            let printed = compiler.output().expect("a compiler").stderr;
+            let printed = String::from_utf8_lossy(&printed);
+            assert!(printed.contains(".h.gch"), "{name}: {printed}");
+            assert_eq!(printed.starts_with("! "), is_taken, "{name}: {printed}");
+        }
+    }
+    let kit = Kit::new(None).expect("there was one");
+    kit.prepare_for(1);
+    assert!(!kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch").exists());
+}

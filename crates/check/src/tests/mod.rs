@@ -1,0 +1,109 @@
+//! Real C++, compiled, run and judged.
+
+mod angles;
+mod building;
+mod causes;
+mod hostile;
+mod mistakes;
+mod other_solutions;
+mod styles;
+mod styles_of_state;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
+
+use variants::section::Section;
+
+use crate::checking::{CheckSettings, check};
+use crate::find::CppSubmission;
+use crate::kit::Kit;
+use crate::report::CheckReport;
+use crate::sections::SectionVerdict;
+
+/// The kit, made ready once for all tests; nothing, with a message, where there is no compiler or
+/// no glm. In CI there must be both.
+fn kit() -> Option<&'static Kit> {
+    static KIT: OnceLock<Option<(Kit, Child)>> = OnceLock::new();
+    let made = KIT.get_or_init(|| match Kit::new(None) {
+        Ok(kit) => {
+            kit.prepare_for(100);
+            let remover = remove_when_we_end(kit.path());
+            Some((kit, remover))
+        }
+        Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
+        Err(error) => {
+            eprintln!("skipped: {error}");
+            None
+        }
+    });
+    made.as_ref().map(|(kit, _)| kit)
+}
+
+/// Nothing drops a static: a process that waits for our end removes the folder.
+fn remove_when_we_end(folder: &Path) -> Child {
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "cat; rm -rf -- \"$0\""]).arg(folder);
+    shell.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+    shell.spawn().expect("a shell")
+}
+
+/// `program` under another name, by which it chooses what it does.
+fn named(program: &Path, name: &str) -> PathBuf {
+    let named = program.with_file_name(name);
+    fs::copy(program, &named).expect("can be copied");
+    named
+}
+
+/// The folder of what the tests hand in.
+fn handed_in() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
+}
+
+/// A file of the right solution in one function.
+fn read(name: &str) -> String {
+    fs::read_to_string(handed_in().join("submissions/one_function").join(name)).expect("a file")
+}
+
+/// The report on a submission of these files, in a folder.
+fn report_on(files: &[(&str, Vec<u8>)]) -> Option<CheckReport> {
+    let kit = kit()?;
+    let folder = tempfile::tempdir().expect("a folder");
+    for (path, content) in files {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("can be made");
+        fs::write(path, content).expect("can be written");
+    }
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
+    let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
+    Some(check(&submission, kit, &settings).expect("it can be checked"))
+}
+
+/// The report on `one_function`, with each pair's first text replaced by its second.
+fn report(changes: &[(&str, &str)]) -> Option<CheckReport> {
+    let mut unused = changes.to_vec();
+    let files = ["PointLight.cpp", "PhotonMappingRenderer.cpp"].map(|name| {
+        let mut text = read(name);
+        unused.retain(|(from, _)| !text.contains(from));
+        for (from, to) in changes {
+            text = text.replace(from, to);
+        }
+        (name, text.into_bytes())
+    });
+    assert!(unused.is_empty(), "{unused:?} is nowhere");
+    report_on(&files)
+}
+
+/// What is said of the sections, for messages of tests.
+fn sections_text(report: &CheckReport) -> String {
+    let line = |verdict: &SectionVerdict| format!("{verdict:#?}");
+    report.sections.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn faults(report: &CheckReport) -> Vec<(Section, Option<&'static str>)> {
+    let sections = report.sections.iter();
+    let faults = sections
+        .flat_map(|verdict| verdict.faults.iter().map(|fault| (verdict.section, fault.name)));
+    faults.collect()
+}
