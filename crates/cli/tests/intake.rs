@@ -122,7 +122,8 @@ fn grades_in_a_class_are_no_submissions_and_are_replaced() {
     let before = fs::read(at("class/grades.json")).unwrap();
     let out = "grade --format json --before {} --out {} {} {}";
     let json = at("class/grades.json");
-    fails(out, &[&json, &json, &json, &at("class/amy")], &["one that is read"]);
+    let refused = run_line(out, &[&json, &json, &json, &at("class/amy")]).code(2);
+    assert!(stderr(refused.get_output()).contains("one that is read"));
     assert_eq!(fs::read(json).unwrap(), before);
 }
 
