@@ -8,3 +8,4 @@ pub mod intake;
 pub mod page;
 pub mod text;
 pub mod twins;
+pub mod written;

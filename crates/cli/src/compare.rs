@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::error::{CliError, print};
-use super::other_format::load_list;
+use super::other_format::{load_list, tell};
 use super::output::{OutputFile, write};
 use super::progress;
 use super::run_args::RunArgs;
@@ -19,7 +19,7 @@ use compare::report::{Outcome, compare, scene_size};
 use grading::picture::kinds::PNG;
 use grading::picture::reading::read_any_picture;
 use photon_list::ply;
-use photon_list::reader::{self, PhotonList};
+use photon_list::reader::{self, PhotonList, STANDARD_INPUT};
 use photon_list::record::Columns;
 use photon_list::run::RunPart;
 use photon_mapping::photon_list::PhotonRecord;
@@ -103,6 +103,9 @@ pub fn run(arguments: &CompareArgs) -> Result<u8, CliError> {
 
 fn is_picture(path: &Path) -> Result<bool, CliError> {
     let unreadable = |error| CliError::unreadable(path, error);
+    if path == Path::new(STANDARD_INPUT) {
+        return Ok(false);
+    }
     reader::refuse_pipe(path)?;
     let mut file = File::open(path).map_err(unreadable)?;
     // What a pipe has given once it does not give again.
@@ -125,7 +128,10 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
             named = name_run(arguments, reference, &mut run);
             let load = |path| move || load_list(path);
             let (reference, submission) = rayon::join(load(reference), load(submission));
-            (reference?, submission?)
+            let [(first, of_first), (second, of_second)] = [reference?, submission?];
+            tell(&arguments.files[0], of_first);
+            tell(&arguments.files[1], of_second);
+            (first, second)
         }
         [submission, ..] if arguments.run.seed.is_some() || arguments.run.photons.is_some() => {
             if is_picture(submission)? {
@@ -133,7 +139,9 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
                 let message = format!("{submission}: expected a photon list, found a picture");
                 return Err(CliError::Argument(message));
             }
-            (trace(&run, arguments.quiet), load_list(submission)?)
+            let (list, note) = load_list(submission)?;
+            tell(submission, note);
+            (trace(&run, arguments.quiet), list)
         }
         files => {
             let count = files.len();

@@ -14,7 +14,7 @@ use photon_mapping::rendering::photon_map::PhotonMap;
 
 use super::beside_expected::beside_expected;
 use super::error::{CliError, print};
-use super::other_format::load_list;
+use super::other_format::{load_list, tell};
 use super::output::{self, OutputFile};
 use super::run_args::RunArgs;
 use super::values;
@@ -70,7 +70,8 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         (Some(path), _) => {
             let name = path.file_name().unwrap_or(path.as_os_str());
             let name = name.to_string_lossy().into_owned();
-            let list = load_list(path)?;
+            let (list, note) = load_list(path)?;
+            tell(path, note);
             let recognize = || misreading::recognize(&list, &run);
             let misreading = is_handout.then(recognize).flatten();
             Some((Other::Submission { name, misreading }, list))

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use classroom::intake::HandedIn;
 use classroom::text::last_part;
+use classroom::written::GRADEBOOK;
 use grading::text::verdict_in_words;
 use grading::verdict::Grade;
 use serde::Deserialize;
@@ -65,6 +66,11 @@ struct CheckedBefore {
 type Named<T> = (Option<Student>, String, T);
 
 impl GradebookArgs {
+    /// The files that are read.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.roster.iter().chain(&self.before)
+    }
+
     /// Names and orders what was `handed_in` at `paths`.
     ///
     /// # Errors
@@ -261,7 +267,7 @@ impl Roll {
         more: impl Fn(usize) -> Vec<String>,
     ) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let columns = [&["name", "id", "email", "score", "verdict"], head].concat();
+        let columns = [&GRADEBOOK, head].concat();
         let mut rows = vec![columns.into_iter().map(str::to_owned).collect::<Vec<_>>()];
         let nobody = Student::default();
         for (at, grade) in grades.iter().enumerate() {

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::error::CliError;
 use super::input;
-use super::other_format::other_format;
+use super::other_format::{other_format, tell};
 use super::output::OutputFile;
 use super::run_summary::{Summary, print_summary};
 use oracle::summary::{Counts, Tally};
@@ -136,7 +136,7 @@ fn merge_lists(arguments: &MergeArgs, out: &Path) -> Result<Summary, CliError> {
         let mut records = Vec::new();
         let mut last = None;
         let mut result = Ok(());
-        reader::read(path, |record| {
+        let (_, note) = reader::read(path, |record| {
             let place = (record.photon, record.bounce);
             let fits = range.contains(&u64::from(record.photon))
                 && last.is_none_or(|last| last < place)
@@ -160,6 +160,7 @@ fn merge_lists(arguments: &MergeArgs, out: &Path) -> Result<Summary, CliError> {
             }
         })?;
         result?;
+        tell(path, note);
         hash.update(&records);
         writer.write(&records).map_err(unwritable)?;
     }

@@ -1,34 +1,36 @@
-//! Names the format of files that are no photon lists.
+//! Reads lists, names the format of files that are none, and tells what of a list is not used.
 
+use std::io::{self, Write as _};
 use std::path::Path;
 
-use grading::picture::kinds::{self, Kind};
+use super::error::escaped;
+use grading::picture::kinds;
 use photon_list::error::ListError;
 use photon_list::reader::{self, PhotonList};
 
-/// Formats that the page of a grade does not name: where their first letters stand, and these.
-const OTHERS: [(usize, &[u8], &str); 7] = [
-    (257, b"ustar", "a tar archive"),
-    (0, b"\x93NUMPY", "a NumPy array"),
-    (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
-    (0, b"MATLAB 5.0", "a MATLAB file"),
-    (0, b"PAR1", "a Parquet file"),
-    (0, b"SQLite format 3\0", "an SQLite database"),
-    (0, b"\x7fELF", "a program"),
-];
-
-/// Reads the list `path`, as [`reader::load`] does.
+/// Reads the list `path` into memory; the text says what was guessed or passed over.
 ///
 /// # Errors
-/// Those of [`reader::load`]; they name the format of a file that is no list.
-pub fn load_list(path: &Path) -> Result<PhotonList, ListError> {
-    reader::load(path).map_err(named)
+/// Those of [`reader::read`]; they name the format of a file that is no list.
+pub fn load_list(path: &Path) -> Result<(PhotonList, Option<String>), ListError> {
+    let mut records = Vec::new();
+    let (columns, note) = reader::read(path, |record| records.push(record)).map_err(named)?;
+    Ok((PhotonList { columns, records }, note))
+}
+
+/// Tells people `note` on the list `path`.
+pub fn tell(path: &Path, note: Option<String>) {
+    if let Some(note) = note {
+        let note = format!("{}: {note}", path.display());
+        // Where that cannot be written, the output must do.
+        let _ = writeln!(io::stderr(), "note: {}", escaped(&note));
+    }
 }
 
 /// `error`, or which other format its file has.
 pub fn named(error: ListError) -> ListError {
-    let ListError::Malformed { path, .. } = &error else { return error };
-    match other_format(path) {
+    let ListError::Malformed { path, start, .. } = &error else { return error };
+    match kinds::other_format(start, path) {
         None => error,
         Some(found) => ListError::malformed(path, format!("expected a photon list, found {found}")),
     }
@@ -38,19 +40,5 @@ pub fn named(error: ListError) -> ListError {
 pub fn other_format(path: &Path) -> Option<String> {
     // What a pipe has given once it does not give again.
     let start = path.is_file().then(|| kinds::start(path).ok()).flatten()?;
-    let is_other = |(at, magic, _): &&(usize, &[u8], &str)| {
-        start.get(*at..).is_some_and(|start| start.starts_with(magic))
-    };
-    if let Some((_, _, name)) = OTHERS.iter().find(is_other) {
-        return Some((*name).to_owned());
-    }
-    let text = start.trim_ascii_start();
-    Some(match kinds::kind(&start, path) {
-        Some(Kind::Packed("xz")) => "an xz archive".to_owned(),
-        Some(Kind::Packed(name)) => format!("a {name} archive"),
-        Some(Kind::Picture(name)) => format!("a picture ({name})"),
-        Some(Kind::Document(name)) => format!("a document ({name})"),
-        None if text.starts_with(b"{") || text.starts_with(b"[") => "JSON".to_owned(),
-        None => return None,
-    })
+    kinds::other_format(&start, path)
 }

@@ -1,12 +1,11 @@
 //! Draws a list that another program wrote: `render --photons-from`.
 
-use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::Instant;
 
-use super::error::{CliError, escaped};
+use super::error::CliError;
 use super::off_surfaces::OffSurfaces;
-use super::other_format::named;
+use super::other_format::{named, tell};
 use super::progress;
 use super::render::tally;
 use super::run_summary::{Seconds, Summary};
@@ -52,11 +51,8 @@ pub fn read_list(
              differ from the scene's, which has z up and meters"
         )
     });
-    for note in note.into_iter().chain(off_surfaces) {
-        let note = format!("{}: {note}", path.display());
-        // Where that cannot be written, the picture must do.
-        let _ = writeln!(io::stderr(), "note: {}", escaped(&note));
-    }
+    tell(path, note);
+    tell(path, off_surfaces);
     let (surfaces, total) = match columns.surface && columns.bounce {
         true => {
             let (surfaces, total) = tally.surfaces(stored, 1000, None);

@@ -269,8 +269,76 @@ fn other_formats_are_named() {
         // Two pictures are compared as pictures.
         if !name.contains("PNG") {
             fail(&folder, &["compare", "list", "list"], &parts);
+            let graded = run(&folder, &["grade", "list"]);
+            assert!(!name.contains("JSON") || text(&graded.stdout).contains("found JSON"));
+        }
+        // What standard input has given once it does not give again.
+        for words in [
+            &["--photons-from", "-"][..],
+            &["compare", "--photons", "9", "-"],
+            &["explore", "--photons", "9", "--submission", "-"],
+        ] {
+            let output = from_standard_input(&folder, words, bytes);
+            let error = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{words:?}: {error}");
+            let expected = format!("error: -: expected a photon list, found {name}\n");
+            assert_eq!(error, expected, "{words:?}");
         }
     }
+}
+
+/// What `words` do with `bytes` on standard input.
+fn from_standard_input(folder: &TempDir, words: &[&str], bytes: &[u8]) -> Output {
+    fs::write(folder.path().join("input"), bytes).unwrap();
+    let input = fs::File::open(folder.path().join("input")).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_photon-mapping"));
+    command.current_dir(folder.path()).args(words).stdin(input).output().unwrap()
+}
+
+#[test]
+fn lists_on_standard_input_are_read_whole_in_any_encoding() {
+    let folder = folder();
+    let list = "x,y,z\n".to_owned() + &"0.1,0.2,0\n".repeat(1000);
+    let utf_16: Vec<u8> = list.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [list.as_bytes(), &utf_16] {
+        fs::write(folder.path().join("list"), &list).unwrap();
+        let output = from_standard_input(&folder, &["compare", "list", "-"], bytes);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    let header = "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n\
+                  property float y\nproperty float z\nend_header\n";
+    let cut = [header.as_bytes(), &[0; 13]].concat();
+    let output = from_standard_input(&folder, &["compare", "--photons", "9", "-"], &cut);
+    let error = text(&output.stderr);
+    assert_eq!(error, "error: -: expected 2 photons, found 1: truncated?\n");
+}
+
+#[test]
+fn every_verb_tells_what_of_a_list_is_not_used() {
+    let folder = folder();
+    let list = "x,y,z,to_light_x,dx\n0.1,0.1,0,1,2\n,,,,\n";
+    fs::write(folder.path().join("p.csv"), list).unwrap();
+    let told = "p.csv: unknown, so not judged: 'dx'; without the other two of their three, so not \
+                judged: 'to_light_x'; 1 row of only empty values, from line 3 on\n";
+    let count = |words: &[&str]| {
+        let output = run(&folder, words);
+        text(&output.stderr).matches(&format!("note: {told}")).count()
+    };
+    assert_eq!(count(&["compare", "p.csv", "p.csv"]), 2);
+    assert_eq!(count(&["compare", "--photons", "9", "p.csv"]), 1);
+    assert_eq!(count(&["explore", "--photons", "9", "--submission", "p.csv"]), 1);
+    assert_eq!(count(&["--photons-from", "p.csv", "--size", "8x6"]), 1);
+    // A piece of a run to which somebody added an element.
+    let render = ["--photons", "99", "--range", "0..99", "--size", "8x6", "--out", "."];
+    run(&folder, &render);
+    let path = folder.path().join("photons.ply");
+    let piece = fs::read(&path).unwrap();
+    let end = piece.windows(10).position(|bytes| bytes == b"end_header").unwrap();
+    let element = b"element note 1\nproperty uchar n\n";
+    fs::write(&path, [&piece[..end], element, &piece[end..], b"7"].concat()).unwrap();
+    let output = run(&folder, &["merge", "photons.ply", "--out", "whole.ply"]);
+    let note = "note: photons.ply: elements other than 'vertex', so not judged: 'note' (1 rows)\n";
+    assert_eq!(text(&output.stderr), note);
 }
 
 #[test]

@@ -4,11 +4,11 @@
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::os::unix::fs::symlink;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::support::{
-    csv, fails, folder, grades, json, program, remarks, run_line, stderr, stdout, write,
+    csv, fails, folder, grades, json, program, remarks, run, run_line, stderr, stdout, write,
 };
 use serde_json::Value;
 use variants::variation::{Hemisphere, Simulation, Variation};
@@ -83,6 +83,71 @@ fn outputs_replace_nothing_that_is_handed_in() {
 }
 
 #[test]
+fn grades_in_a_class_are_no_submissions_and_are_replaced() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    for name in ["amy", "bob"] {
+        write(at("class").join(name).join("photons.csv"), csv(1, 20_000));
+    }
+    let files = ["class/grades.csv", "class/grades.json", "class/grades.txt", "class/amy/own.csv"];
+    for round in 0..2 {
+        // Each finds what the others wrote.
+        for (format, out) in ["csv", "json", "text", "csv"].iter().zip(files) {
+            let line = format!("grade --format {format} --out {{}} {{}}");
+            run_line(&line, &[&at(out), &at("class")]).success();
+        }
+        for format in ["html", "gradescope"] {
+            let line = format!("grade --format {format} --out {{}} {{}}");
+            run_line(&line, &[&at("class").join(format), &at("class")]).success();
+        }
+        assert_eq!(names(&[], &at("class")), ["amy", "bob"], "{round}");
+        // As a shell names them.
+        let mut paths: Vec<PathBuf> =
+            fs::read_dir(at("class")).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        let named = Vec::from(["grade", "--format", "csv", "--out"].map(PathBuf::from));
+        run([named, vec![at("class/grades.csv")], paths].concat()).success();
+        let rows = fs::read_to_string(at("class/grades.csv")).unwrap();
+        assert_eq!(rows.lines().count(), 3, "{rows}");
+    }
+    let told = run_line("grade {}", &[&at("class")]).success();
+    let error = stderr(told.get_output());
+    assert!(
+        error.contains("left out: grades.csv, grades.json, grades.txt, gradescope, html: grades"),
+        "{error}"
+    );
+    // Grades of before, which are read, stay.
+    let before = fs::read(at("class/grades.json")).unwrap();
+    let out = "grade --format json --before {} --out {} {} {}";
+    let json = at("class/grades.json");
+    let refused = run_line(out, &[&json, &json, &json, &at("class/amy")]).code(2);
+    assert!(stderr(refused.get_output()).contains("one that is read"));
+    assert_eq!(fs::read(json).unwrap(), before);
+}
+
+#[test]
+fn a_table_that_only_resembles_grades_is_handed_in() {
+    let folder = folder();
+    for (at, own) in [
+        "name,id,email,score\nbob,1,b,4\n",
+        "{\n  \"submission\": \"bob\"\n}\n",
+        "bob: correct, 4 of 4\n",
+        "bob: perfect, 4 of 4 points\n",
+        "<!DOCTYPE html><p>by photon-mapping</p>\n",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let path = folder.path().join(at.to_string());
+        write(path.join("photons.csv"), csv(1, 20_000));
+        write(path.join("grades.csv"), own);
+        let paths = [path.join("grades.csv"), path.clone()];
+        fails("grade --out {} {}", &[&paths[0], &paths[1]], &["one in the folder of a submission"]);
+        assert_eq!(fs::read_to_string(&paths[0]).unwrap(), *own);
+    }
+}
+
+#[test]
 fn no_output_is_called_as_others_call_standard_output() {
     let folder = folder();
     let list = write(folder.path().join("a.csv"), csv(1, 20_000));
@@ -124,7 +189,9 @@ fn standard_input_is_called_so_and_leaves_nothing() {
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
-    child.stdin.as_mut().unwrap().write_all(b"x,y,z\n").unwrap();
+    // Waiting would close it, and the program may then end before the signal comes.
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(b"x,y,z\n").unwrap();
     while fs::read_dir(at("tmp")).unwrap().count() == 0 {
         std::thread::sleep(std::time::Duration::from_millis(10));
     }

@@ -157,7 +157,11 @@ pub fn judge(
         // Photons that are stored again and again say no more than one.
         let distinct = Observation { counts: observation.distinct.clone(), ..observation.clone() };
         let is_crowded = findings.iter().any(|it| it.is_fault() && it.check == SPREAD);
-        let recognized = not_recognized(&OfList { observation: &distinct, ..list }, is_crowded);
+        let recognized = not_recognized(
+            &OfList { observation: &distinct, ..list },
+            is_crowded,
+            explanation.is_some(),
+        );
         findings.splice(..0, recognized);
     }
     Judgment { findings, explanation, pair, reading, signature, emitted: trial.emitted }

@@ -6,16 +6,15 @@
 use super::evidence::Evidence;
 use super::expected::bisect;
 use super::limits::expected::SIZES;
-use super::limits::{
-    CROWDED, EVEN, FEW_PLACES_EVEN, FEWEST_PLACES, MADE_UP, MORE_EVEN, MORE_EVEN_OF_FEW,
-    ONE_SURFACE,
-};
+use super::limits::{CROWDED, EVEN, FEWEST_PLACES, MADE_UP, MANY_PLACES, MORE_EVEN, ONE_SURFACE};
 use super::verdict::{Finding, Verdict, Weight};
 
 /// The check of what a grade is given for at all.
 pub const RECOGNIZED: &str = "photon map";
 /// The check of whether that can be told.
 pub const RECOGNIZABLE: &str = "enough to recognize";
+/// The check of whether what has no name has enough photons to be more than chance.
+pub const TELLING: &str = "enough without a name";
 
 /// The verdict whose points a submission gets: of too few photons those of an undecided one, and of
 /// what is no photon map those of an unreadable one.
@@ -23,14 +22,24 @@ pub fn scored_as(verdict: Verdict, findings: &[Finding]) -> Verdict {
     let fails = |check: &str| findings.iter().any(|it| it.is_fault() && it.check == check);
     match verdict {
         _ if fails(RECOGNIZED) => Verdict::Unreadable,
-        _ if fails(RECOGNIZABLE) => Verdict::Undecided,
+        _ if fails(RECOGNIZABLE) || fails(TELLING) => Verdict::Undecided,
         verdict => verdict,
     }
 }
 
-/// The finding that nothing of the photon map is in `evidence`, or that so little is in it that
-/// this cannot be told. `is_crowded` tells whether it crowds on spots or lines.
-pub(crate) fn not_recognized<E: Evidence>(evidence: &E, is_crowded: bool) -> Option<Finding> {
+/// Whether something of a photon map is in what has these `findings`, whatever it is worth.
+pub(crate) fn is_recognized(findings: &[Finding]) -> bool {
+    findings.iter().all(|it| !it.is_fault() || ![RECOGNIZED, RECOGNIZABLE].contains(&it.check))
+}
+
+/// The finding that nothing of the photon map is in `evidence`, which is wrong, or that so little
+/// is in it that this cannot be told. `is_crowded` tells whether it crowds on spots or lines, and
+/// `is_named` whether a misreading explains it.
+pub(crate) fn not_recognized<E: Evidence>(
+    evidence: &E,
+    is_crowded: bool,
+    is_named: bool,
+) -> Option<Finding> {
     let counts = evidence.of_cells();
     let (unit, on_cells) = (E::WORDS.unit, counts.iter().sum::<f64>());
     let places = on_cells + evidence.strays();
@@ -51,13 +60,21 @@ pub(crate) fn not_recognized<E: Evidence>(evidence: &E, is_crowded: bool) -> Opt
     } else if on_one > ONE_SURFACE {
         format!("{:.0} % of the {unit} lie on one surface, where light reaches all", 100.0 * on_one)
     } else {
+        // Fewer are even by chance.
+        if places < MANY_PLACES {
+            return (!is_named).then(|| too_few_without_name(unit, places));
+        }
         let uneven = to_even(evidence);
-        let more = if places < FEW_PLACES_EVEN { MORE_EVEN_OF_FEW } else { MORE_EVEN };
-        if uneven >= EVEN || uneven + more >= apart {
+        if uneven >= EVEN || uneven + MORE_EVEN >= apart {
             return None;
         }
         format!("{unit} that lie evenly all over the surfaces, as no light leaves them")
     };
+    Some(made_up(found))
+}
+
+/// The finding that what was `found` is no photon map.
+pub(crate) fn made_up(found: String) -> Finding {
     let finding = Finding::new(
         RECOGNIZED,
         "a photon map of this scene, with or without mistakes",
@@ -65,7 +82,19 @@ pub(crate) fn not_recognized<E: Evidence>(evidence: &E, is_crowded: bool) -> Opt
         "Nothing of the photon map is recognizable: a person must look. Check which file was \
          handed in, and which program made it.",
     );
-    Some(finding.weighing(Weight::Grave))
+    finding.weighing(Weight::Grave)
+}
+
+/// The finding that what lies at `places` has no name, and is too little to be more than chance.
+fn too_few_without_name(unit: &str, places: f64) -> Finding {
+    let finding = Finding::new(
+        TELLING,
+        format!("{unit} at {MANY_PLACES} places or more, or a known misreading that explains them"),
+        format!("{unit} at {places} places, which no known misreading explains"),
+        "Points that a hand strewed would look the same: a person must look. Hand in the list of a \
+         run of 1,000,000 photons.",
+    );
+    finding.weighing(Weight::Fault)
 }
 
 /// The part of the counts that would have to move until they are as the nearest hypothesis leaves

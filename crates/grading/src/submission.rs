@@ -11,8 +11,9 @@ use super::limits::FEW_EMITTED;
 use super::naming::Explanation;
 use super::observation::observe;
 use super::picture::judge_picture;
+use super::picture::kinds::other_format;
 use super::policy::Policy;
-use super::recognized::scored_as;
+use super::recognized::{is_recognized, scored_as};
 use super::text::printable;
 use super::unjudged::{no_photons, not_readable, too_few, without_bounces};
 pub use super::unjudged::{remark, unreadable};
@@ -104,8 +105,12 @@ pub fn grade_at_most(
             graded
         }
         // The name of the submission says already which file it is.
-        Err(ListError::Malformed { reason, .. }) => {
-            unreadable(submission, settings, &told(path, &reason))
+        Err(ListError::Malformed { reason, start, .. }) => {
+            let reason = match other_format(&start, path) {
+                Some(found) => format!("expected a photon list, found {found}"),
+                None => told(path, &reason),
+            };
+            unreadable(submission, settings, &reason)
         }
         Err(ListError::TooLong { most, .. }) => {
             let reason = format!("expected a list of at most {most} records, found a longer one");
@@ -153,8 +158,7 @@ pub fn grade_at_most(
 
 /// Whether something of a photon map is recognizable in what was `graded`.
 fn is_recognizable(graded: &Graded) -> bool {
-    let verdict = graded.grade.verdict;
-    scored_as(verdict, &graded.grade.findings) == verdict
+    is_recognized(&graded.grade.findings)
 }
 
 /// The grade of a submission of which a file could not be read because of `error`.

@@ -14,6 +14,7 @@ use super::error::{At, ListError};
 use super::naming::Naming;
 use super::record::{ABSENT, Rows, Value};
 use super::text::Lines;
+use super::units::refused_in_comment;
 
 /// In so many bytes of comments the names of columns are looked for: that takes longer than reading
 /// them.
@@ -42,6 +43,8 @@ pub(super) struct TextStart {
     first: Option<(u64, String)>,
     /// How many rows a line says there are, and which line.
     count: Option<(u64, u64)>,
+    /// How many bytes of comments were read.
+    comments: usize,
 }
 
 /// Reads up to the first row from line `next` on: also with other separators than commas, and
@@ -60,6 +63,7 @@ pub(super) fn start(
         if let Some(comment) = commented(row) {
             comments += comment.len();
             if comments <= MOST_IN_COMMENTS {
+                refuse_commented_unit(path, number, comment)?;
                 let dialect = Dialect::of(comment.trim()).ok();
                 refuse_other_unit(path, number, dialect.as_ref())?;
                 of_comment = dialect.filter(|dialect| dialect.has_header).or(of_comment);
@@ -73,7 +77,7 @@ pub(super) fn start(
                 (Err(message), None) => return Err(ListError::in_line(path, number, message)),
             };
             refuse_other_unit(path, number, Some(&dialect))?;
-            return Ok(TextStart { dialect, first, count });
+            return Ok(TextStart { dialect, first, count, comments });
         }
         next = lines.next()?.map(|(number, line)| (number, line.into_owned()));
     }
@@ -81,12 +85,20 @@ pub(super) fn start(
         true => ListError::malformed(path, "the file is empty: it has nothing but white space"),
         false => ListError::malformed(path, "expected a photon list, found only comments"),
     })?;
-    Ok(TextStart { dialect, first: None, count })
+    Ok(TextStart { dialect, first: None, count, comments })
 }
 
 /// Refuses the names in line `number` where they say that positions are not in meters.
 fn refuse_other_unit(path: &Path, number: u64, dialect: Option<&Dialect>) -> Result<(), ListError> {
     match dialect.and_then(|dialect| dialect.naming.other_unit.clone()) {
+        None => Ok(()),
+        Some(reason) => Err(ListError::in_line(path, number, reason)),
+    }
+}
+
+/// The same of a comment.
+fn refuse_commented_unit(path: &Path, number: u64, comment: &str) -> Result<(), ListError> {
+    match refused_in_comment(comment) {
         None => Ok(()),
         Some(reason) => Err(ListError::in_line(path, number, reason)),
     }
@@ -105,7 +117,7 @@ pub(super) fn read(
     rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
 ) -> Result<Naming, ListError> {
     let path = lines.path;
-    let TextStart { mut dialect, first, mut count } = start;
+    let TextStart { mut dialect, first, mut count, mut comments } = start;
     let mut records = 0;
     let mut number_of_row: Option<Option<u64>> = None;
     let mut empty = 0_u64;
@@ -114,7 +126,14 @@ pub(super) fn read(
     let mut row = |number: u64, line: &str| -> Result<bool, ListError> {
         let (whole, line) = (line, line.trim());
         let is_empty_row = line.is_empty() && dialect.is_empty_row(whole);
-        if (line.is_empty() && !is_empty_row) || commented(line).is_some() {
+        if line.is_empty() && !is_empty_row {
+            return Ok(true);
+        }
+        if let Some(comment) = commented(line) {
+            comments = comments.saturating_add(comment.len());
+            if comments <= MOST_IN_COMMENTS {
+                refuse_commented_unit(path, number, comment)?;
+            }
             return Ok(true);
         }
         if let (0, None, Ok(rows)) = (records, count, line.parse()) {

@@ -32,6 +32,9 @@ pub enum ListError {
         path: PathBuf,
         /// Where, and what was expected and found.
         reason: Reason,
+        /// How the file starts, from which other formats can be told; nothing where it was not
+        /// read from its start on.
+        start: Vec<u8>,
     },
 }
 
@@ -92,11 +95,19 @@ impl ListError {
             At::Line(line) => format!("line {line}: {}", reason.message),
             At::Row(row) => format!("row {row}: {}", reason.message),
         };
-        Self::Malformed { path: path.to_owned(), reason: Reason { message, ..reason } }
+        Self::malformed(path, Reason { message, ..reason })
     }
 
     /// `path` is no list: `message` says where, what was expected, and what was found.
     pub fn malformed(path: &Path, message: impl Into<Reason>) -> Self {
-        Self::Malformed { path: path.to_owned(), reason: message.into() }
+        Self::Malformed { path: path.to_owned(), reason: message.into(), start: Vec::new() }
+    }
+
+    /// The same of a file that starts with `bytes`.
+    pub(super) fn starting_with(mut self, bytes: Vec<u8>) -> Self {
+        if let Self::Malformed { start, .. } = &mut self {
+            *start = bytes;
+        }
+        self
     }
 }

@@ -11,4 +11,5 @@ pub mod reader;
 pub mod record;
 pub mod run;
 mod text;
+mod units;
 pub mod writer;

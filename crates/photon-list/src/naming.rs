@@ -4,6 +4,7 @@ use photon_mapping::photon_list::COLUMNS;
 
 use super::error::{Reason, start};
 use super::record::Columns;
+use super::units::{refused, without_brackets, without_word};
 
 /// How other programs name the vectors of a photon: in front of a coordinate or a channel.
 const VECTORS: [(&[&str], [&str; 3]); 3] = [
@@ -22,19 +23,6 @@ const LONGEST_NAME: usize = 64;
 const OF_VIEWERS: [&str; 8] = ["nx", "ny", "nz", "red", "green", "blue", "alpha", "quality"];
 /// No more unknown columns are told.
 const MOST_TOLD: usize = 8;
-
-/// What positions are in: the scene's unit is the meter.
-const METERS: [&str; 9] = [
-    "m",
-    "meter",
-    "meters",
-    "metre",
-    "metres",
-    "world",
-    "world space",
-    "world unit",
-    "world units",
-];
 
 /// Which column each of a file's is.
 #[derive(Debug)]
@@ -79,7 +67,7 @@ impl Naming {
                         guessed.push(format!("'{}' for {column}", start(names[*at])));
                     }
                     if place < 3 && other_unit.is_none() {
-                        other_unit = without_unit(names[*at]).1.and_then(refused_unit);
+                        other_unit = without_unit(names[*at]).1.and_then(refused);
                     }
                 }
                 _ => return Err(format!("expected each column once, found '{column}' twice")),
@@ -135,28 +123,24 @@ fn place(name: &str) -> Option<(usize, u8)> {
     if let Some(place) = COLUMNS.iter().position(|column| name == *column) {
         return Some((place, 0));
     }
-    let (name, _) = without_unit(name);
+    place_of_plain(without_unit(name).0)
+}
+
+/// The same of a `name` without a unit, in capitals or not.
+fn place_of_plain(name: &str) -> Option<(usize, u8)> {
     let same = COLUMNS.iter().position(|column| name.eq_ignore_ascii_case(column));
     same.map(|place| (place, 1)).or_else(|| Some((of_a_vector(name)?, 2)))
 }
 
-/// `x` and the unit `m` for `x (m)` and `x [m]`; what has an index in its brackets keeps them.
+/// The name and the unit of a column; a unit without brackets stands beside the name of a
+/// coordinate alone.
 fn without_unit(name: &str) -> (&str, Option<&str>) {
-    let unit = name.strip_suffix([')', ']']).and_then(|name| name.rsplit_once(['(', '[']));
-    let is_index = |unit: &str| matches!(unit, "x" | "y" | "z" | "r" | "g" | "b" | "0" | "1" | "2");
-    match unit {
-        Some((name, unit)) if !is_index(&unit.to_ascii_lowercase()) => {
-            (name.trim_end(), Some(unit.trim()))
-        }
-        _ => (name, None),
+    let is_coordinate = |(name, _): &(&str, &str)| matches!(place_of_plain(name), Some((..=2, _)));
+    let split = || without_word(name).filter(is_coordinate);
+    match without_brackets(name).or_else(split) {
+        Some((name, unit)) => (name, Some(unit)),
+        None => (name, None),
     }
-}
-
-/// Why positions in `unit` are refused, if they are not in meters.
-fn refused_unit(unit: &str) -> Option<Reason> {
-    let is_meters = METERS.iter().any(|meters| unit.eq_ignore_ascii_case(meters));
-    let message = "expected x, y and z in meters ('m'), the scene's unit".to_owned();
-    (!is_meters).then(|| Reason { message, found: Some(start(unit)) })
 }
 
 /// The place in [`COLUMNS`] of what `position.x`, `intensity[0]` or `toLightRay.direction.z` names.

@@ -1,7 +1,7 @@
 //! Reading lists, whoever wrote them.
 
 use std::fs::{self, File};
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 
 use glam::Vec3;
@@ -19,10 +19,12 @@ use super::text::{Lines, decoded};
 pub const MOST_BYTES: u64 = 100_000_000;
 /// So much of a file is looked at to see whether it is a list.
 pub const LONGEST_START: u64 = 65_536;
+/// So much of it is kept, to tell which other format it has.
+const KEPT: u64 = 4096;
 /// Memory is taken for at least so many records at once.
 const LEAST_RESERVED: usize = 1024;
 /// The name of standard input.
-const STANDARD_INPUT: &str = "-";
+pub const STANDARD_INPUT: &str = "-";
 
 /// A list in memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +95,7 @@ pub fn load_at_most(path: &Path, most: usize) -> Result<(PhotonList, Notes), Lis
         records.push(record);
         Ok(true)
     });
-    let naming = read_rows(open(path, MOST_BYTES)?, &mut rows)?;
+    let naming = read_file(path, MOST_BYTES, &mut rows)?;
     let mut columns = naming.columns;
     let mut left_out = Vec::new();
     for (place, error) in rows.left_out.into_iter().enumerate() {
@@ -149,8 +151,20 @@ pub fn read(
         on_record(record);
         Ok(true)
     });
-    let naming = read_rows(open(path, u64::MAX)?, &mut rows)?;
+    let naming = read_file(path, u64::MAX, &mut rows)?;
     Ok((naming.columns, naming.note))
+}
+
+/// Reads the rows in at most `most` bytes of the file `path`.
+fn read_file(
+    path: &Path,
+    most: u64,
+    rows: &mut Rows<impl FnMut(PhotonRecord) -> Result<bool, ListError>>,
+) -> Result<Naming, ListError> {
+    let mut start = Vec::new();
+    let input = open_and_keep(path, most, &mut start);
+    let naming = input.and_then(|input| read_rows(input, rows));
+    naming.map_err(|error| error.starting_with(start))
 }
 
 fn read_rows(
@@ -173,6 +187,15 @@ pub(super) enum Input<'path> {
 
 /// Opens the list `path`, of which at most `most` bytes are read.
 pub(super) fn open(path: &Path, most: u64) -> Result<Input<'_>, ListError> {
+    open_and_keep(path, most, &mut Vec::new())
+}
+
+/// The same; the first bytes go to `start`: what a pipe has given once it does not give again.
+fn open_and_keep<'path>(
+    path: &'path Path,
+    most: u64,
+    start: &mut Vec<u8>,
+) -> Result<Input<'path>, ListError> {
     let unreadable = |error| ListError::unreadable(path, error);
     let file: Box<dyn Read> = if path == Path::new(STANDARD_INPUT) {
         Box::new(io::stdin())
@@ -180,7 +203,9 @@ pub(super) fn open(path: &Path, most: u64) -> Result<Input<'_>, ListError> {
         refuse_pipe(path)?;
         Box::new(File::open(path).map_err(unreadable)?)
     };
-    let input = decoded(file.take(most)).map_err(unreadable)?;
+    let mut file = file.take(most);
+    file.by_ref().take(KEPT).read_to_end(start).map_err(unreadable)?;
+    let input = decoded(Cursor::new(start.clone()).chain(file)).map_err(unreadable)?;
     let mut lines = Lines::new(input, path);
     let mut first = None;
     // Editors and consoles put empty lines before a list.

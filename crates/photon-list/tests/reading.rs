@@ -351,6 +351,86 @@ fn positions_in_other_units_than_meters_are_refused() {
 }
 
 #[test]
+fn units_beside_names_are_read_if_they_are_meters() {
+    let forms: [fn(&str, &str) -> String; 12] = [
+        |axis, unit| format!("{axis}_{unit}"),
+        |axis, unit| format!("{axis}.{unit}"),
+        |axis, unit| format!("{axis}/{unit}"),
+        |axis, unit| format!("{axis}:{unit}"),
+        |axis, unit| format!("{axis}-{unit}"),
+        |axis, unit| format!("{} in {unit}", axis.to_uppercase()),
+        |axis, unit| format!("{axis}_in_{unit}"),
+        |axis, unit| format!("{unit}_{axis}"),
+        |axis, unit| format!("{axis} {{{unit}}}"),
+        |axis, unit| format!("pos_{axis}_{unit}"),
+        |axis, unit| format!("position.{axis} [{unit}]"),
+        |axis, unit| format!("Points:{axis} {unit}"),
+    ];
+    let list = |form: fn(&str, &str) -> String, unit: &str, between: &str| {
+        ["x", "y", "z"].map(|axis| form(axis, unit)).join(between) + "\n" + &rows(",")
+    };
+    for form in forms {
+        for between in [",", ", "] {
+            for unit in ["m", "M", "meters", "world"] {
+                let list = list(form, unit, between);
+                assert_read(&list, list.lines().next().unwrap());
+            }
+            for unit in ["mm", "cm", "CM", "ft", "inches", "millimeters", "px"] {
+                let found = format!("found '{unit}'");
+                assert_refused(list(form, unit, between), &["line 1", "in meters", &found]);
+            }
+        }
+    }
+    for (names, unit) in [("x_in,y_in,z_in", "in"), ("xmm,ymm,zmm", "mm"), ("x,y,z_cm", "cm")] {
+        let found = format!("found '{unit}'");
+        assert_refused(format!("{names}\n{}", rows(",")), &["line 1", "in meters", &found]);
+    }
+    // Inputs, and columns beside the position, have names of their own.
+    let other = format!("x,y,z,x_in,time_mm\n{}", rows(",").replace('\n', ",7,7\n"));
+    assert_eq!(notes(other), "unknown, so not judged: 'x_in', 'time_mm'");
+    assert_refused(format!("in_x,in_y,in_z\n{}", rows(",")), &["found no 'x'"]);
+}
+
+#[test]
+fn units_in_comments_are_meters() {
+    let with = |comment: &str| {
+        let ply = ply();
+        [
+            format!("# {comment}\n{}", csv()),
+            format!("x,y,z\n// {comment}\n{}", rows(",")),
+            ply.replacen("element", &format!("comment {comment}\nelement"), 1),
+            ply.replacen("element", &format!("obj_info {comment}\nelement"), 1),
+        ]
+    };
+    for (comment, unit) in [
+        ("units: mm", "mm"),
+        ("Unit = cm", "cm"),
+        ("UNITS are millimetres", "millimetres"),
+        ("units in mm", "mm"),
+        ("all positions in centimeters, z up", "centimeters"),
+        ("x, y, z (in mm)", "mm"),
+    ] {
+        for list in with(comment) {
+            assert_refused(list, &["line ", "in meters", &format!("found '{unit}'")]);
+        }
+    }
+    for comment in [
+        "units: m",
+        "unit meter, pictures are 20 cm wide",
+        "positions in world units",
+        "surface 3 lamp in mm",
+        "rendered in 20 minutes, 3 cm per pixel",
+    ] {
+        let lists = with(comment);
+        // Only lists of this program name surfaces.
+        let is_surface = comment.starts_with("surface");
+        for list in lists.into_iter().skip(if is_surface { 2 } else { 0 }) {
+            assert_read(list, comment);
+        }
+    }
+}
+
+#[test]
 fn optional_columns_that_cannot_be_used_are_left_out_by_grade_alone() {
     let surfaces = format!("x,y,z,surface,bounce\n{}", rows(",").replace('\n', ",shortBox,2\n"));
     let photons = format!("x,y,z,photon\n{}", rows(",").replace('\n', ",-1\n"));

@@ -4,9 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::WRITTEN;
 use super::folder::{Found, has_extension, is_of_camera, within};
 pub use super::names::{is_litter, student_in};
 use super::names::{is_own_file, is_part};
+use crate::written::is_own;
 use grading::picture::kinds::{self, Kind, kind};
 use grading::text::printable;
 use photon_list::reader::{Look, look};
@@ -23,6 +25,8 @@ struct Children {
     pictures: Vec<PathBuf>,
     rest: Vec<PathBuf>,
     hidden: Vec<PathBuf>,
+    /// What this program wrote.
+    own: Vec<PathBuf>,
 }
 
 impl Children {
@@ -42,6 +46,8 @@ impl Children {
                 &mut children.hidden
             } else if path.is_symlink() || is_called_packed(&path) {
                 &mut children.others
+            } else if is_own(&path) {
+                &mut children.own
             } else if path.is_dir() {
                 &mut children.folders
             } else if !path.is_file() {
@@ -120,7 +126,7 @@ fn innermost(folder: &Path) -> (PathBuf, bool) {
     const LONGEST_CHAIN: usize = 6;
     let (mut inner, mut is_of_submission) = (folder.to_owned(), false);
     for _ in 0..LONGEST_CHAIN {
-        let Children { folders, others, lists, unlikely, pictures, rest, hidden: _ } =
+        let Children { folders, others, lists, unlikely, pictures, rest, hidden: _, own: _ } =
             Children::of(&inner);
         let has_own = [others, lists, unlikely, pictures].iter().any(|paths| !paths.is_empty());
         let [only] = folders.as_slice() else { break };
@@ -220,7 +226,8 @@ pub fn students(folder: &Path) -> (Vec<PathBuf>, Vec<String>) {
     students.sort();
     let hidden = left_out(folder, &children.hidden, "names with a dot are no submissions");
     let rest = left_out(folder, &children.rest, "no list, picture or folder");
-    (students, hidden.into_iter().chain(rest).collect())
+    let own = left_out(folder, &children.own, WRITTEN);
+    (students, [hidden, rest, own].into_iter().flatten().collect())
 }
 
 /// That of the class `folder` these `paths` are no submissions, and why; none if there are none.

@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 
 use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
+use super::WRITTEN;
 use super::contents::same_contents;
 use super::names::is_litter;
+use crate::written::is_own_start;
 use grading::picture::kinds::{self, Kind, kind};
 use grading::text::printable;
 use photon_list::reader::{LONGEST_START, Look, look};
@@ -150,6 +152,10 @@ impl Found {
             let start = kinds::start(path)?;
             let path = path.to_owned();
             match kind(&start, &path) {
+                _ if is_own_start(&start) => {
+                    let name = within(&path, folder);
+                    self.notes.push(format!("left out: {name}: {WRITTEN}"));
+                }
                 Some(Kind::Packed(kind)) => {
                     let name = within(&path, folder);
                     self.notes.push(format!("{name} is packed ({kind}): unpack it first"));

@@ -19,6 +19,11 @@ use grading::submission::Submission;
 use grading::text::printable;
 use names::is_litter;
 
+use crate::written::is_own;
+
+/// Why a file or folder that this program wrote is left out.
+const WRITTEN: &str = "grades that this program wrote are no submissions";
+
 /// A submission, and what there is to say about its files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HandedIn {
@@ -53,6 +58,8 @@ pub struct Collected {
     pub handed_in: Vec<HandedIn>,
     /// The folders that could be a class or one submission, and why.
     pub ambiguous: Vec<String>,
+    /// What this program wrote, which is no submission.
+    pub own: Vec<PathBuf>,
     /// The folders of the classes.
     pub classes: Vec<PathBuf>,
     /// What in a class is no submission.
@@ -65,8 +72,11 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     let mut collected = Collected::default();
     let mut all = Vec::new();
     // A pattern for all files of a folder names these, too.
-    let paths: Vec<&PathBuf> =
-        paths.iter().filter(|path| paths.len() == 1 || !is_litter(path)).collect();
+    let is_left_out = |path: &&PathBuf| paths.len() > 1 && (is_litter(path) || is_own(path));
+    let (left_out, paths): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(is_left_out);
+    collected.own = left_out.into_iter().filter(|path| is_own(path)).cloned().collect();
+    let note = |path: &PathBuf| format!("{}: left out: {WRITTEN}", path.display());
+    collected.notes.extend(collected.own.iter().map(note));
     let class_in = |path: &&PathBuf| match folders {
         Folders::Class if path.is_dir() => {
             Ok(Some(StudentsIn { folder: class::unwrapped(path), ..StudentsIn::default() }))

@@ -11,8 +11,6 @@ pub mod plot;
 pub mod profile;
 mod rubric;
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 use std::sync::{Mutex, OnceLock};
 
@@ -20,6 +18,7 @@ use image::RgbImage;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::text::last_part;
+use super::written::GENERATOR;
 use compare::numbers::thousands;
 use findings::{findings, sections};
 use grading::judge_list::{Expectations, Judgment};
@@ -38,8 +37,6 @@ const STYLE: &str = include_str!("style.css");
 /// Keeps the page from loading anything, should ever something of a submission get through
 /// unescaped.
 const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
-/// What made a page, in the page.
-const GENERATOR: &str = "photon-mapping";
 /// A larger picture is not shown.
 const MOST_BYTES: u64 = 8 << 20;
 const LONGEST_EDGE: u32 = 4096;
@@ -236,16 +233,6 @@ fn class_of(verdict: Verdict) -> &'static str {
         Verdict::Incorrect => "incorrect",
         Verdict::Undecided | Verdict::NoDots | Verdict::Unreadable => "nothing",
     }
-}
-
-/// Whether the file `path` is a page of this program.
-pub fn is_page(path: &Path) -> bool {
-    /// What comes before has a fixed length.
-    const MOST: u64 = 1024;
-    let mut start = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(MOST).read_to_end(&mut start));
-    let mark = html! { meta name="generator" content=(GENERATOR); }.into_string();
-    read.is_ok() && String::from_utf8_lossy(&start).contains(&mark)
 }
 
 fn document(title: &str, policy: &str, body: &Markup) -> String {

@@ -13,7 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::error::{CliError, escaped};
 use super::gradebook::GradebookArgs;
-use super::output::{protect, protect_folders};
+use super::output::{protect, protect_folders, release};
 use super::values;
 use class::Class;
 // What `check` has in common with `grade`, where there is `check`.
@@ -40,7 +40,8 @@ are found by their contents. alice.csv and alice.png are one submission.
 
 Classes: a folder is a class if it has no list or picture of its own, but folders of at least \
 two students do, or if all its files have names from Canvas or Moodle. Use --class or \
---submission if a folder could be either. A faulty submission does not stop the others.
+--submission if a folder could be either. A faulty submission does not stop the others. Grades \
+that this program wrote into a class are no submissions, and the next run may replace them.
 
 Several lists or pictures in one folder: the one called photons or assignment8 is judged, or any \
 if all are the same. Otherwise none is. A remark names those left out.
@@ -137,11 +138,13 @@ pub fn run(arguments: &GradeArgs) -> Result<u8, CliError> {
         (_, true) => Folders::Submission,
         _ => Folders::Clear,
     };
-    let Collected { mut handed_in, ambiguous, classes, notes } =
+    let Collected { mut handed_in, ambiguous, classes, own, notes } =
         collect(&input.in_place_of_name(&there), folders);
     input.name(&mut handed_in);
     notes.iter().for_each(|note| eprintln!("note: {}", escaped(note)));
     let files = handed_in.iter().map(|one| [&one.submission.list, &one.submission.picture]);
+    release(&own);
+    protect(arguments.policy.iter().chain(arguments.gradebook.files()));
     protect(files.flatten().flatten());
     protect_folders(&there);
     // What nobody could grade is told when all others are graded.

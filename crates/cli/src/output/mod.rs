@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::NamedTempFile;
 
 use super::error::CliError;
-use classroom::page::is_page;
+use classroom::written::is_own;
 pub use interrupt::remove_unfinished_files_on_interrupt;
 pub use unfinished::temporary_folder;
 
@@ -26,7 +26,7 @@ type Identity = (u64, u64);
 #[cfg(not(unix))]
 type Identity = PathBuf;
 
-/// Folders of submissions, in which no output may replace anything but a page of this program.
+/// Folders of submissions, in which no output may replace anything but what this program wrote.
 static SUBMISSIONS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Endings of file names that no folder is likely to have.
@@ -40,7 +40,15 @@ pub fn protect<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {
     lock(&INPUTS).extend(files);
 }
 
-/// From now on no output may replace a file in the `folders` of submissions but pages.
+/// From now on outputs may replace the files `paths`, which are not read after all.
+pub fn release<P: AsRef<Path>>(paths: impl IntoIterator<Item = P>) {
+    let files: Vec<Identity> =
+        paths.into_iter().filter_map(|path| identity(path.as_ref())).collect();
+    lock(&INPUTS).retain(|input| !files.contains(input));
+}
+
+/// From now on no output may replace a file in the `folders` of submissions but what this program
+/// wrote.
 pub fn protect_folders(folders: &[PathBuf]) {
     let folders = folders.iter().filter(|folder| folder.is_dir());
     lock(&SUBMISSIONS).extend(folders.filter_map(|folder| fs::canonicalize(folder).ok()));
@@ -202,7 +210,7 @@ pub fn refuse_protected(path: &Path) -> Result<(), CliError> {
         return refused("one that is read");
     }
     let Ok(target) = fs::canonicalize(path) else { return Ok(()) };
-    match lock(&SUBMISSIONS).iter().any(|folder| target.starts_with(folder)) && !is_page(&target) {
+    match lock(&SUBMISSIONS).iter().any(|folder| target.starts_with(folder)) && !is_own(&target) {
         true => refused("one in the folder of a submission"),
         false => Ok(()),
     }

@@ -4,15 +4,19 @@ use std::borrow::Cow;
 
 use super::dotted::OfPicture;
 use super::expectations::PictureExpectations;
-use super::view::View;
+use super::view::{PIXELS, View};
 use super::words;
 use crate::evidence::Evidence;
 use crate::facts::ENOUGH_PHOTONS;
-use crate::limits::{ALL_RED, FEW_EMITTED, FEWEST_RED, RARE, SATURATED, SIGNIFICANCE};
+use crate::limits::{
+    ALL_RED, FEW_EMITTED, FEWEST_CROWDED, FEWEST_RED, MIDDLE, RARE, SATURATED, SIGNIFICANCE,
+    SMALL_PART,
+};
 use crate::naming::{Explanation, candidates, most_likely};
-use crate::recognized::not_recognized;
+use crate::recognized::{RECOGNIZED, made_up, not_recognized};
 use crate::trial::best_trial;
 use crate::verdict::{Finding, Verdict};
+use photon_mapping::assignment8::WIDTH;
 
 /// What the dots of a picture say.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +96,29 @@ pub fn judge_dots(
         let explanation = nan.map(|nan| Explanation::by_marks(nan.hypothesis.clone(), 0.0));
         return early(true, words::all_red(), explanation);
     }
-    judge_pattern(&picture)
+    let mut judgment = judge_pattern(&picture);
+    let part = part_with_most(red, view);
+    let is_told = judgment.findings.iter().any(|finding| finding.check == RECOGNIZED);
+    if found >= FEWEST_CROWDED && part < SMALL_PART && !is_told {
+        let words = format!("most red pixels lie in {:.1} % of the picture", 100.0 * part);
+        judgment.findings.insert(0, made_up(words));
+    }
+    judgment
+}
+
+/// Which part of the picture the rows and the columns make up that have most of `red` in their
+/// middle.
+fn part_with_most(red: &[bool], view: &View) -> f64 {
+    let dots =
+        red.iter().enumerate().filter(|(pixel, is_red)| **is_red && view.patch(*pixel).is_some());
+    let dots: Vec<usize> = dots.map(|(pixel, _)| pixel).collect();
+    let length = |along: fn(usize) -> usize| {
+        let mut places: Vec<usize> = dots.iter().map(|pixel| along(*pixel)).collect();
+        places.sort_unstable();
+        let at = |part: f64| places[((places.len() - 1) as f64 * part).round() as usize];
+        (at(0.5 + 0.5 * MIDDLE) - at(0.5 - 0.5 * MIDDLE) + 1) as f64
+    };
+    length(|pixel| pixel / WIDTH as usize) * length(|pixel| pixel % WIDTH as usize) / PIXELS as f64
 }
 
 fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
@@ -116,7 +142,8 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
         None => OfPicture::WORDS.unexplained.into(),
     };
     let reading = &picture.table().fair[trial.reading].hypothesis;
-    let recognized = is_wrong.then(|| not_recognized(picture, false)).flatten();
+    let recognized =
+        is_wrong.then(|| not_recognized(picture, false, explanation.is_some())).flatten();
     let of_trial = trial.findings(&reading.title, explanation.as_ref(), &unexplained);
     let mut findings: Vec<Finding> = recognized.into_iter().chain(of_trial).collect();
     if picture.emitted.is_none() {

@@ -34,6 +34,19 @@ const OFFICE: [(&str, &str); 7] = [
     ("pages", "Pages"),
 ];
 
+/// Formats that say nothing of pictures: where their first letters stand, and these.
+const OTHERS: [(usize, &[u8], &str); 9] = [
+    (257, b"ustar", "a tar archive"),
+    (0, b"\x93NUMPY", "a NumPy array"),
+    (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
+    (0, b"MATLAB 5.0", "a MATLAB file"),
+    (0, b"PAR1", "a Parquet file"),
+    (0, b"SQLite format 3\0", "an SQLite database"),
+    (0, b"\x7fELF", "a program"),
+    (0, b"\xff\xfe\0\0", "text in UTF-32"),
+    (0, b"\0\0\xfe\xff", "text in UTF-32"),
+];
+
 const TARGA: [&str; 3] = ["tga", "targa", "icb"];
 
 /// The first bytes of `path`.
@@ -97,6 +110,26 @@ pub fn kind(start: &[u8], path: &Path) -> Option<Kind> {
         (FileFormat::Mpeg4Part14, _) => Some(Kind::Document("MP4".to_owned())),
         _ => None,
     }
+}
+
+/// Which format the file `path` has, which starts with `start`, if it is one that no photon list
+/// has.
+pub fn other_format(start: &[u8], path: &Path) -> Option<String> {
+    let is_other = |(at, magic, _): &&(usize, &[u8], &str)| {
+        start.get(*at..).is_some_and(|start| start.starts_with(magic))
+    };
+    if let Some((_, _, name)) = OTHERS.iter().find(is_other) {
+        return Some((*name).to_owned());
+    }
+    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).trim_ascii_start();
+    Some(match kind(start, path) {
+        Some(Kind::Packed("xz")) => "an xz archive".to_owned(),
+        Some(Kind::Packed(name)) => format!("a {name} archive"),
+        Some(Kind::Picture(name)) => format!("a picture ({name})"),
+        Some(Kind::Document(name)) => format!("a document ({name})"),
+        None if text.starts_with(b"{") || text.starts_with(b"[") => "JSON".to_owned(),
+        None => return None,
+    })
 }
 
 /// The width and height of the PNG file that starts with `start`.

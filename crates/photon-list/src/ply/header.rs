@@ -6,6 +6,7 @@ use std::io::BufRead;
 use super::scalar::Scalar;
 use crate::error::{ListError, Reason, start};
 use crate::text::Lines;
+use crate::units::refused_in_comment;
 
 /// A header has a line for each surface, of which there are 65,536 at most.
 const MOST_LINES: u64 = 100_000;
@@ -72,8 +73,18 @@ impl Header {
             let words: Vec<&str> = line.split_whitespace().collect();
             let keyword = words.first().copied().unwrap_or_default().to_ascii_lowercase();
             match (keyword.as_str(), words.get(1..).unwrap_or_default()) {
-                ("comment", _) => comments.push(line["comment".len()..].trim().to_owned()),
-                ("obj_info" | "", _) => {}
+                ("comment" | "obj_info", _) => {
+                    let text = line[keyword.len()..].trim();
+                    // Surfaces may be called anything.
+                    let unit = refused_in_comment(text).filter(|_| !text.starts_with("surface "));
+                    if let Some(reason) = unit {
+                        return Err(error(reason));
+                    }
+                    if keyword == "comment" {
+                        comments.push(text.to_owned());
+                    }
+                }
+                ("", _) => {}
                 ("format", _) if encoding.is_some() => {
                     let found = Some(start(line));
                     let message = "expected one line with the format".to_owned();
