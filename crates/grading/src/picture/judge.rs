@@ -9,8 +9,8 @@ use super::words;
 use crate::evidence::Evidence;
 use crate::facts::ENOUGH_PHOTONS;
 use crate::limits::{
-    ALL_RED, FEW_EMITTED, FEWEST_CROWDED, FEWEST_RED, MIDDLE, RARE, SATURATED, SIGNIFICANCE,
-    SMALL_PART,
+    ALL_RED, FEW_EMITTED, FEWEST_CROWDED, FEWEST_PLACES, FEWEST_RED, MIDDLE, RARE, SATURATED,
+    SIGNIFICANCE, SMALL_PART,
 };
 use crate::naming::{Explanation, candidates, most_likely};
 use crate::recognized::{RECOGNIZED, made_up, not_recognized};
@@ -146,8 +146,10 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
         is_wrong.then(|| not_recognized(picture, false, explanation.is_some())).flatten();
     let of_trial = trial.findings(&reading.title, explanation.as_ref(), &unexplained);
     let mut findings: Vec<Finding> = recognized.into_iter().chain(of_trial).collect();
-    if picture.emitted.is_none() {
-        findings.push(words::enough(picture.counts.iter().sum(), trial.emitted, !is_wrong));
+    let found = picture.counts.iter().sum();
+    // A few dots are what may be left of any number of photons off their surfaces.
+    if picture.emitted.is_none() || standoff.is_some() && found < FEWEST_PLACES {
+        findings.push(words::enough(found, trial.emitted, !is_wrong));
     }
     findings.extend(standoff.map(words::off_surface));
     if let Some(Explanation { hypothesis, emitted, .. }) = &explanation {
