@@ -10,6 +10,7 @@ use grading::judge_list::{Expectations, Judgment, SIGNIFICANCE, judge};
 use grading::observation::{CountsByPlace, Observation, observe};
 use grading::places::{Place, Places};
 use grading::policy::Policy;
+use grading::recognized::TELLING;
 use grading::signature::{Signature, Signatures, classes, measure};
 use grading::statistics::{corrected, normal_tail};
 use grading::verdict::{Finding, Verdict, Weight};
@@ -614,7 +615,9 @@ fn photons_that_the_intensity_contradicts_are_not_correct() {
         let observation = observed(kept, columns);
         let by_intensity = observation.emitted_by_intensity;
         let judgment = judge(&observation, by_intensity, false, &EXPECTATIONS);
-        let faults: Vec<_> = judgment.findings.iter().filter(|it| it.is_fault()).collect();
+        let faults = judgment.findings.iter().filter(|it| it.is_fault());
+        // The fewest of them are too few to get points without a look.
+        let faults: Vec<_> = faults.filter(|it| it.check != TELLING).collect();
         assert_eq!(faults.iter().map(|it| it.check).collect::<Vec<_>>(), ["number by intensity"]);
         assert_eq!((name(&judgment), faults[0].weight), (None, Weight::Fault));
         assert!(faults[0].advice.contains("--emitted"));
