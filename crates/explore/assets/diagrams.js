@@ -5,7 +5,8 @@ const svg = (height, label, ...parts) =>
 const line = ([x1, y1], [x2, y2], kind = "") =>
   `<line x1="${x1}" y1="${y1}" x2="${x2}" y2="${y2}" class="${kind}" />`;
 const circle = ([x, y], r, kind = "") => `<circle cx="${x}" cy="${y}" r="${r}" class="${kind}" />`;
-const text = (words, [x, y], kind = "") => `<text x="${x}" y="${y}" class="${kind}">${words}</text>`;
+const text = (words, [x, y], kind = "") =>
+  `<text x="${x}" y="${y}" class="${kind}">${words}</text>`;
 /** What is drawn in one color of the style sheet. */
 const tinted = (color, ...parts) => `<g color="var(--${color})">${parts.join("")}</g>`;
 /** An arrow with its head, which is small where the arrow is short. */

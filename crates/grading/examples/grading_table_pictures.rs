@@ -13,8 +13,9 @@ use std::ops::Range;
 
 use grading::picture::expectations::PictureExpectations;
 use grading::picture::expected::expect;
-use grading::picture::judge::{PictureJudgment, judge_dots};
+use grading::picture::judge::judge_dots;
 use grading::places::Places;
+use grading::verdict::Verdict;
 use limit::best_test;
 use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
 use photon_mapping::random::photon_random;
@@ -42,10 +43,10 @@ fn main() {
 
     if correct > 0 {
         println!(
-            "| correct, emitted | positions | pictures | called incorrect | no dots \
+            "| correct, emitted | positions | pictures | called incorrect | undecided | no dots \
              | smallest p | of all p | p < 0.1 | p < 0.01 | p < 0.001 |"
         );
-        println!("|---|---|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|---|");
     }
     let kinds = SIZES.into_iter().flat_map(|size| [(size, false), (size, true)]);
     for ((emitted, fewer), is_off) in kinds.filter(|_| correct > 0) {
@@ -54,11 +55,11 @@ fn main() {
         let seeds = FIRST_SEED..FIRST_SEED + count;
         let alarms = false_alarms(seeds, emitted, is_off, &expectations);
         eprintln!("{emitted}: the smallest p is that of seed {}", alarms.of_seed);
-        let FalseAlarms { pictures, incorrect, no_dots, smallest, below, .. } = alarms;
+        let FalseAlarms { pictures, incorrect, undecided, no_dots, smallest, below, .. } = alarms;
         let [all, a, b, c] = below;
         let positions = if is_off { "up to 4e-3 off" } else { "on the surface" };
         println!(
-            "| {emitted} | {positions} | {pictures} | {incorrect} | {no_dots} \
+            "| {emitted} | {positions} | {pictures} | {incorrect} | {undecided} | {no_dots} \
              | {smallest:.1e} | {all} | {a} | {b} | {c} |"
         );
     }
@@ -155,7 +156,7 @@ fn detect(
         let mut row = Row::default();
         for judgment in judged.iter().map(|pair| &pair[which]) {
             row.pictures += 1;
-            row.incorrect += usize::from(judgment.is_incorrect());
+            row.incorrect += usize::from(judgment.verdict() == Verdict::Incorrect);
             if let Some(explanation) = &judgment.explanation {
                 *row.named.entry(explanation.hypothesis.id).or_default() += 1;
             }
@@ -171,6 +172,8 @@ struct FalseAlarms {
     pictures: usize,
     /// How many were called incorrect, either way.
     incorrect: usize,
+    /// How many were undecided, either way.
+    undecided: usize,
     /// How many have no dots, since positions are too far off.
     no_dots: usize,
     /// The smallest p-value, corrected for the number of tests.
@@ -202,7 +205,9 @@ fn false_alarms(
     let mut alarms = FalseAlarms { smallest: 1.0, ..FalseAlarms::default() };
     for (seed, judgments) in (first..).zip(judged) {
         alarms.pictures += 1;
-        alarms.incorrect += usize::from(judgments.iter().any(PictureJudgment::is_incorrect));
+        let is = |verdict| judgments.iter().any(|judgment| judgment.verdict() == verdict);
+        alarms.incorrect += usize::from(is(Verdict::Incorrect));
+        alarms.undecided += usize::from(is(Verdict::Undecided));
         alarms.no_dots += usize::from(!judgments[0].has_dots);
         for p_value in judgments.iter().filter_map(|judgment| judgment.p_value) {
             if p_value < alarms.smallest {
