@@ -16,7 +16,7 @@ use photon_mapping::assignment8::create_scene;
 use rayon::prelude::*;
 
 /// How many points are made up.
-const COUNTS: [usize; 9] = [1, 10, 59, 60, 100, 200, 500, 1000, 10_000];
+const COUNTS: [usize; 9] = [1, 10, 60, 100, 149, 150, 500, 1000, 10_000];
 const SEEDS: u64 = 6;
 /// The edges of patches of noise in pictures, in pixels.
 const EDGES: [usize; 3] = [20, 40, 80];

@@ -39,7 +39,7 @@ fn is_told(findings: &[Finding]) -> bool {
 fn what_was_made_up_gets_no_points() {
     let kinds = kinds(&EXPECTATIONS);
     for kind in &kinds {
-        for count in [1, 10, 59, 60, 300, 800, 1000, 20_000] {
+        for count in [1, 10, 100, 149, 150, 300, 800, 1000, 20_000] {
             for emitted in [None, Some(10_000)] {
                 let Grade { verdict, score, findings, .. } =
                     grade(list(kind.points(count, 5)), emitted);
@@ -104,7 +104,7 @@ fn of_few_incorrect_photons_those_with_a_name_keep_their_points() {
         let list = positions(it.variation, 10_000);
         let stored = list.records.len();
         let grade = grade(list, Some(10_000));
-        if grade.verdict != Verdict::Incorrect || !(60..1000).contains(&stored) {
+        if grade.verdict != Verdict::Incorrect || !(150..1000).contains(&stored) {
             continue;
         }
         let is_telling = !grade.findings.iter().any(|it| it.is_fault() && it.check == TELLING);

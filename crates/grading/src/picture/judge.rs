@@ -9,7 +9,7 @@ use super::words;
 use crate::evidence::Evidence;
 use crate::facts::ENOUGH_PHOTONS;
 use crate::limits::{
-    ALL_RED, FEW_EMITTED, FEWEST_CROWDED, FEWEST_PLACES, FEWEST_RED, MIDDLE, RARE, SATURATED,
+    ALL_RED, FEW_EMITTED, FEWEST_CROWDED, FEWEST_DOTS, FEWEST_RED, MIDDLE, RARE, SATURATED,
     SIGNIFICANCE, SMALL_PART,
 };
 use crate::naming::{Explanation, candidates, most_likely};
@@ -148,7 +148,7 @@ fn judge_pattern(picture: &OfPicture) -> PictureJudgment {
     let mut findings: Vec<Finding> = recognized.into_iter().chain(of_trial).collect();
     let found = picture.counts.iter().sum();
     // A few dots are what may be left of any number of photons off their surfaces.
-    if picture.emitted.is_none() || standoff.is_some() && found < FEWEST_PLACES {
+    if picture.emitted.is_none() || standoff.is_some() && found < FEWEST_DOTS {
         findings.push(words::enough(found, trial.emitted, !is_wrong));
     }
     findings.extend(standoff.map(words::off_surface));

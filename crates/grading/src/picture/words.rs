@@ -1,7 +1,7 @@
 //! What is said of a picture.
 
 use crate::facts::ENOUGH_PHOTONS;
-use crate::limits::{FEW_EMITTED, FEWEST_PLACES, NUMBER_LEEWAY};
+use crate::limits::{FEW_EMITTED, FEWEST_DOTS, NUMBER_LEEWAY};
 use crate::text::rounded;
 use crate::verdict::{Finding, Weight};
 use compare::numbers::thousands;
@@ -89,7 +89,7 @@ pub(super) fn enough(found: f64, fitted: f64, are_fair: bool) -> Finding {
         } else {
             format!("{} red pixels", rounded(found))
         },
-        fitted >= FEW_EMITTED && found >= FEWEST_PLACES,
+        fitted >= FEW_EMITTED && found >= FEWEST_DOTS,
         Weight::Fault,
         "The framework emits 1,000,000 photons. If yours did, look at where paths end; if it \
          emitted fewer, grade with --emitted.",
