@@ -117,8 +117,8 @@ fn limit(id: &str, size: u64, content: Content, expectations: &Expectations) -> 
     (!powers.is_empty()).then(|| powers.iter().sum::<f64>() / powers.len() as f64)
 }
 
-/// Prints what it would cost to find nearly as many lists as the best tests, each of which looks for
-/// one misreading.
+/// Prints what it would cost to find nearly as many lists as the best tests, each of which looks
+/// for one misreading.
 pub fn cost_of_power(expectations: &Expectations) {
     let signatures = &expectations.signatures;
     let shows = |id: &str| id != "bounce-off-by-one";

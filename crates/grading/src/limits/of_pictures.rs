@@ -57,8 +57,8 @@ pub(crate) mod dots {
     pub(crate) const SAME_VIEW: f64 = 0.8;
 }
 
-/// Fewer dots, where photons are off their surfaces, are what may be left of any number of them: the
-/// verdict is undecided. Ten dots of noise on a box were once called correct.
+/// Fewer dots, where photons are off their surfaces, are what may be left of any number of them:
+/// the verdict is undecided. Ten dots of noise on a box were once called correct.
 pub(crate) const FEWEST_DOTS: f64 = 60.0;
 
 /// How large dots are.
