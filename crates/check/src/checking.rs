@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use compare::differences::Differences;
-use compare::report::{Outcome, compare, scene_size};
+use compare::report::{Outcome, TOLERANCE, compare};
 use grading::text::printable;
 use photon_list::reader::PhotonList;
 use photon_list::record::Columns;
@@ -20,8 +20,6 @@ use crate::run::{Observed, run};
 use crate::sections;
 use crate::workshop::Workshop;
 
-/// How far apart two positions may be that count as one, as a part of the scene's longest edge.
-const TOLERANCE: f32 = 1e-4;
 /// The part of the records that rounding may move farther.
 const BY_ROUNDING: f32 = 5e-4;
 
@@ -146,9 +144,7 @@ fn add_whole(observed: Observed, report: &mut CheckReport) {
         report.whole.drawn = Some(drawn);
         report.whole.stored = Some(whole.records.len() as u64);
     }
-    let columns =
-        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-    let list = PhotonList { columns, records: whole.records };
+    let list = PhotonList::of(whole.records);
     let (comparison, remark) = compare_whole(&list, report.whole.photons);
     report.whole.comparison = Some(comparison);
     report.remarks.extend(remark);
@@ -159,14 +155,8 @@ fn add_whole(observed: Observed, report: &mut CheckReport) {
 /// differs though the positions are the reference's.
 fn compare_whole(list: &PhotonList, photons: u64) -> (compare::report::Report, Option<String>) {
     let run = Run::handout(assignment8::SEED, photons);
-    let mut records = Vec::new();
-    let traced: Result<_, std::convert::Infallible> = run.trace_list(0..photons, |piece, _| {
-        records.extend_from_slice(piece);
-        Ok(())
-    });
-    let Ok(_) = traced;
-    let reference = PhotonList { columns: list.columns, records };
-    let tolerance = TOLERANCE * scene_size(run.scene());
+    let reference = PhotonList { columns: list.columns, records: run.records(0..photons) };
+    let tolerance = TOLERANCE * run.size();
     let report = compare(&reference, list, Some(&run), tolerance, BY_ROUNDING);
     let Differences { wrong_intensity, wrong_to_light, .. } = report.differences;
     if report.outcome != Outcome::Different || wrong_intensity + wrong_to_light == 0 {

@@ -15,12 +15,11 @@ use super::progress;
 use super::run_args::RunArgs;
 use classroom::page::difference;
 use compare::pictures::compare_pictures;
-use compare::report::{Outcome, compare, scene_size};
+use compare::report::{Outcome, TOLERANCE, compare};
 use grading::picture::kinds::PNG;
 use grading::picture::reading::read_any_picture;
 use photon_list::ply;
 use photon_list::reader::{self, PhotonList, STANDARD_INPUT};
-use photon_list::record::Columns;
 use photon_list::run::RunPart;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::reading::Reading;
@@ -44,7 +43,7 @@ pub struct CompareArgs {
     files: Vec<PathBuf>,
     /// For lists: two positions closer than this are the same, as a fraction of the scene's longest
     /// edge (0.0001 is a fifth of a millimeter in a box of two meters)
-    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = part)]
+    #[arg(long, value_name = "T", default_value_t = TOLERANCE, value_parser = part)]
     tolerance: f32,
     /// For lists: the fraction of the records that may differ while the lists still count as the
     /// same (0.001 allows one in a thousand)
@@ -171,7 +170,7 @@ fn lists(arguments: &CompareArgs) -> Result<u8, CliError> {
         }
     }
     // Lists have world positions, and a scene need not be traced at its own size.
-    let tolerance = arguments.tolerance * run.placement.length_to_world(scene_size(run.scene()));
+    let tolerance = arguments.tolerance * run.size();
     let waiting = progress::waiting(arguments.quiet, "comparing");
     let mut report = compare(&reference, &submission, Some(&run), tolerance, arguments.allow);
     waiting.finish_and_clear();
@@ -222,9 +221,7 @@ fn trace(run: &Run, quiet: bool) -> PhotonList {
         });
     let Ok(_) = traced;
     bar.finish_and_clear();
-    let columns =
-        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-    PhotonList { columns, records }
+    PhotonList::of(records)
 }
 
 fn pictures(arguments: &CompareArgs, reference: &Path, submission: &Path) -> Result<u8, CliError> {

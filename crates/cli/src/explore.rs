@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use explore::comparison::{ListComparison, Other};
-use explore::{Exploration, list_of, misreading, stored};
+use explore::{Exploration, misreading};
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use oracle::summary::Tally;
+use photon_list::reader::PhotonList;
 use photon_mapping::assignment8::{self, HEIGHT, WIDTH};
 use photon_mapping::rendering::photon_map::PhotonMap;
 
@@ -61,7 +62,7 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
     if misreading.is_some_and(misreading::needs_few_bounces) && !is_set {
         run.renderer.max_photon_bounces = misreading::FEW_BOUNCES;
     }
-    let records = stored(&run, 0..emitted);
+    let records = run.records(0..emitted);
     let mut tally = Tally::new(run.scene().mesh_objects().iter().map(|mesh| mesh.name.clone()));
     records.iter().for_each(|record| tally.add(record));
     let is_handout = arguments.run.scene.is_built_in();
@@ -78,11 +79,13 @@ pub fn run(arguments: &ExploreArgs) -> Result<u8, CliError> {
         }
         (None, Some(name)) => {
             let traced = misreading::trace(name, &run);
-            traced.map(|(misreading, records)| (Other::Misreading(misreading), list_of(records)))
+            traced.map(|(misreading, records)| {
+                (Other::Misreading(misreading), PhotonList::of(records))
+            })
         }
         (None, None) => None,
     };
-    let reference = || list_of(records.clone());
+    let reference = || PhotonList::of(records.clone());
     let comparison = other.map(|(other, list)| ListComparison::new(other, reference(), list, &run));
 
     let places = records.iter().map(|record| record.position.as_dvec3());

@@ -11,6 +11,7 @@ use super::render::tally;
 use super::run_summary::{Seconds, Summary};
 use fast::dots::Dots;
 use photon_list::reader;
+use photon_list::record::Columns;
 use photon_mapping::photon_list::ListHash;
 use variants::run::Run;
 
@@ -62,7 +63,7 @@ pub fn read_list(
     };
     Ok(Summary {
         stored,
-        sha256: columns.all().then(|| hash.hex()),
+        sha256: (columns == Columns::ALL).then(|| hash.hex()),
         seconds: Seconds { trace: start.elapsed().as_secs_f64(), ..Seconds::default() },
         surfaces,
         total,

@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use crate::support::{folder, json, run_line};
 use photon_list::reader::load;
+use photon_list::record::Columns;
 use photon_mapping::random::photon_random;
 
 const PHOTONS: &str = "60000";
@@ -154,7 +155,7 @@ fn photons_of_other_types_are_written() {
     let status = Command::new(program).args([&plain, &numbered]).status();
     assert!(status.expect("the program runs").success());
     let (plain, numbered) = (load(&plain).expect("a list"), load(&numbered).expect("a list"));
-    assert!(plain.columns.to_light && !plain.columns.photon && numbered.columns.all());
+    assert!(plain.columns.to_light && !plain.columns.photon && numbered.columns == Columns::ALL);
     for list in [&plain, &numbered] {
         assert_eq!(list.records[0].position.to_array(), [0.1, -2.0, 1e-30]);
         assert_eq!(list.records[0].intensity.to_array(), [1e-6, 1.0, 2.0]);

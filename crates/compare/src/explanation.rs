@@ -10,7 +10,6 @@ use super::fair_search::{LONGEST_OFFSET, Search, Window};
 use super::known::KnownRun;
 use super::position_index::is_near;
 use super::tries::other_emissions;
-use crate::report::scene_size;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::hypotheses::Hypothesis;
@@ -65,7 +64,7 @@ pub fn explain_fairly<'run>(
 ) -> Option<FairExplanation<'run>> {
     let run = known.run;
     let base = Fair::of(run)?;
-    let size = run.placement.length_to_world(scene_size(run.scene()));
+    let size = run.size();
     let search = Search { run, tolerance: lists.tolerance, size };
     let base = match photons_of(lists) {
         Some(photons) if search.scattered_part(&base, &photons) < SAME_DRAWS => {
@@ -160,7 +159,7 @@ fn come_from_the_light(known: &KnownRun, lists: &Lists) -> bool {
         return false;
     }
     let run = known.run;
-    let reach = LONGEST_OFFSET * run.placement.length_to_world(scene_size(run.scene()));
+    let reach = LONGEST_OFFSET * run.size();
     let lights = run.scene().lights().iter().map(|light| run.placement.to_world(light.position));
     let lights: Vec<_> = lights.collect();
     let records = &lists.submission.records;

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::explain::{Story, explain};
 use crate::fair::Fair;
 use photon_list::reader::PhotonList;
-use photon_list::record::Columns;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
 
@@ -46,9 +45,7 @@ impl KnownRun<'_> {
                 .filter_map(|photon| fair.story(self.run, photon))
                 .flat_map(|story| self.records(fair, &story))
         });
-        let columns =
-            Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-        PhotonList { columns, records: records.collect() }
+        PhotonList::of(records.collect())
     }
 
     fn records(&self, fair: &Fair, story: &Story) -> Vec<PhotonRecord> {

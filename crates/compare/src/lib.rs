@@ -10,7 +10,10 @@
 //! tell them. [`report`] puts it together; [`pictures`] compares pictures instead.
 
 pub mod alignment;
+mod common_subsequence;
+mod compared;
 mod conventions;
+mod deeds;
 pub mod differences;
 mod divergence;
 pub mod explain;
@@ -30,4 +33,5 @@ mod same_rows;
 mod text;
 mod tries;
 mod verdict;
+mod verdict_of_direction;
 mod whole;

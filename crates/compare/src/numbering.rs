@@ -12,7 +12,6 @@ use super::fair::{Fair, HitPoint, Shift};
 use super::fair_search::LONGEST_OFFSET;
 use super::position_index::PositionIndex;
 use super::tries::{Tries, other_emissions};
-use crate::report::scene_size;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
@@ -65,7 +64,7 @@ pub fn links(run: &Run, list: &PhotonList) -> Vec<Link> {
         return Vec::new();
     }
     let Some(fair) = Fair::of(run) else { return Vec::new() };
-    let size = run.placement.length_to_world(scene_size(run.scene()));
+    let size = run.size();
     let reference = Tries::REFERENCE;
     let mut emissions = vec![reference, Tries { order: [2, 1, 0], ..reference }];
     emissions.extend(other_emissions(reference).into_iter().map(|(tries, _)| tries));
@@ -166,7 +165,7 @@ fn densest(values: &[f32], width: f32) -> (usize, f32) {
 /// Photon and bounce of every record that leads back to a first hit, over other records or at once.
 fn photons_of(run: &Run, list: &PhotonList, link: &Link) -> Option<Vec<Option<(u32, u16)>>> {
     let Link { tries, shift, reach, .. } = *link;
-    let size = run.placement.length_to_world(scene_size(run.scene()));
+    let size = run.size();
     let first = first_hits(run, &Fair { tries, ..Fair::of(run)? });
     let points: Vec<_> = first.iter().map(|(_, hit)| hit.point).collect();
     let own = PositionIndex::new(&points, ROUNDING * size);

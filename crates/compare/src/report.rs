@@ -1,11 +1,11 @@
 //! The comparison of two lists, put together.
 
-use glam::Vec3;
 use serde::Serialize;
 
-use super::alignment::{Pairing, align, with_bounces};
+use super::alignment::{Pairing, with_bounces};
+use super::compared::Compared;
 use super::conventions::{other_numbers, to_reference};
-use super::differences::{Difference, Differences, count, same_to_light};
+use super::differences::{Difference, Differences};
 use super::divergence::{Divergence, Lists};
 use super::explanation::{explain_fairly, has_other_draws};
 use super::known::KnownRun;
@@ -16,15 +16,16 @@ use super::same_rows::{has_same_bits, has_same_order, has_same_rows};
 use super::whole::judge_whole;
 use crate::explain::explain;
 use photon_list::reader::PhotonList;
+use photon_list::record::Columns;
 use photon_mapping::photon_list::ListHash;
-use photon_mapping::scene::Scene;
 use variants::run::Run;
 
+/// How far apart two positions may be that count as one, over the size of the scene, where the user
+/// does not say.
+pub const TOLERANCE: f32 = 1e-4;
 /// The part of the records that may still differ under the fair reading that explains the others:
 /// near edges, an offset that is only about known loses some.
 const LEFT_BY_READING: f64 = 1e-3;
-/// Fewer matched records say nothing about the directions to the light.
-const FEWEST_MATCHED: usize = 20;
 /// The part of the records of a right solution that rounding may move beyond the tolerance.
 /// Measured in C++ over seven seeds: 3 records of 350,000, all in one run.
 const USUAL_BY_ROUNDING: f64 = 1e-4;
@@ -93,14 +94,6 @@ pub struct Report {
     pub note: Option<String>,
 }
 
-/// The longest edge of the scene's bounding box, in scene units.
-pub fn scene_size(scene: &Scene) -> f32 {
-    let vertices = || scene.triangles().iter().flat_map(|triangle| triangle.vertices);
-    let low = vertices().fold(Vec3::INFINITY, Vec3::min);
-    let high = vertices().fold(Vec3::NEG_INFINITY, Vec3::max);
-    (high - low).max_element()
-}
-
 /// Compares two lists; positions are the same within `tolerance` world units, and the part
 /// `allowed` of all records, from 0 to 1, may differ before the lists do. `run` is the run of
 /// which `reference` is said to be the list; where they part is explained from it if it is.
@@ -128,7 +121,7 @@ pub fn compare(
     };
     if has_same_bits(reference, submission) {
         report.differences.matched = report.reference_records;
-        report.sha256 = reference.columns.all().then(|| hash(reference));
+        report.sha256 = (reference.columns == Columns::ALL).then(|| hash(reference));
         return report;
     }
     let tells_photons = reference.columns.photon && submission.columns.photon;
@@ -185,41 +178,6 @@ pub fn compare(
         );
     }
     report
-}
-
-/// Two lists, paired and counted.
-struct Compared {
-    tolerance: f32,
-    pairings: Vec<Pairing>,
-    differences: Differences,
-    differing: Vec<(Pairing, Difference)>,
-}
-
-impl Compared {
-    fn new(reference: &PhotonList, submission: &PhotonList, tolerance: f32) -> Self {
-        let pairings = align(reference, submission, tolerance);
-        let (differences, differing) = count(reference, submission, &pairings, tolerance);
-        Self { tolerance, pairings, differences, differing }
-    }
-
-    /// Whether no more than the part `part` of `records` differ.
-    fn few(&self, part: f64, records: u64) -> bool {
-        self.differing.len() as f64 <= part * records as f64
-    }
-
-    fn lists<'a>(&'a self, reference: &'a PhotonList, submission: &'a PhotonList) -> Lists<'a> {
-        let Self { tolerance, pairings, .. } = self;
-        let matched = pairings.iter().filter_map(|pairing| match *pairing {
-            Pairing::Both(i, j) => Some((&reference.records[i], &submission.records[j])),
-            _ => None,
-        });
-        let near = matched.filter(|(a, b)| is_near(a.position, b.position, *tolerance));
-        let [all, same] = near
-            .fold([0, 0], |[all, same], (a, b)| [all + 1, same + usize::from(same_to_light(a, b))]);
-        let has_true_to_light =
-            submission.columns.to_light && (all < FEWEST_MATCHED || 2 * same > all);
-        Lists { reference, submission, pairings, tolerance: *tolerance, has_true_to_light }
-    }
 }
 
 fn hash(list: &PhotonList) -> String {

@@ -1,17 +1,16 @@
 //! To which section of the handout does a difference belong?
 
-use glam::{Mat3, Vec3};
+use glam::Vec3;
 
 use super::fair::Fair;
 use super::fair_search::LONGEST_OFFSET;
 use super::known::KnownRun;
 use super::position_index::is_near;
 use super::tries::other_emissions;
+use super::verdict_of_direction::judge_direction;
 use crate::explain::{Ending, Hit, Story};
-use crate::report::scene_size;
 use photon_mapping::photon_list::PhotonRecord;
-use photon_mapping::rendering::sampling::{CLOSE_TO_PARALLEL, sample_hemisphere};
-use variants::misreadings::{Numbers, directions};
+use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use variants::section::Section;
 
 /// What a difference is put down to.
@@ -44,25 +43,24 @@ pub struct Parting<'run> {
     pub tolerance: f32,
 }
 
-fn certain(section: Section, reason: impl Into<String>) -> Cause {
+pub(crate) fn certain(section: Section, reason: impl Into<String>) -> Cause {
     Cause { section, reason: reason.into(), is_certain: true }
 }
 
-fn guess(section: Section, reason: impl Into<String>) -> Cause {
+pub(crate) fn guess(section: Section, reason: impl Into<String>) -> Cause {
     Cause { section, reason: reason.into(), is_certain: false }
 }
 
 impl Parting<'_> {
     /// A verdict without doubt if the record is this photon's.
-    fn sure(&self, section: Section, reason: impl Into<String>) -> Cause {
+    pub(crate) fn sure(&self, section: Section, reason: impl Into<String>) -> Cause {
         Cause { section, reason: reason.into(), is_certain: self.is_same_photon }
     }
 
     /// How far the start of a ray may be from the hit, in world units.
     fn reach(&self) -> f32 {
         let run = self.known.run;
-        LONGEST_OFFSET * run.placement.length_to_world(scene_size(run.scene()))
-            + 20.0 * self.tolerance
+        LONGEST_OFFSET * run.size() + 20.0 * self.tolerance
     }
 
     /// Points from which rays start where it is forgotten to set their position.
@@ -252,74 +250,6 @@ fn known_emission(observation: &Parting) -> Option<Cause> {
         is_near(position, record.position, observation.tolerance)
             .then(|| certain(Section::PhotonEmission, reason))
     })
-}
-
-/// Judges the direction `way`, of any length, in which the submission's photon left `hit`.
-fn judge_direction(observation: &Parting, hit: &Hit, way: Vec3) -> Option<Cause> {
-    let tolerance = observation.tolerance;
-    let (Some(u1), Some(u2), Some(tangent), Some(bitangent), Some(expected)) =
-        (hit.u1, hit.u2, hit.tangent, hit.bitangent, hit.direction)
-    else {
-        return None;
-    };
-    if way.length() < 50.0 * tolerance {
-        return None;
-    }
-    // The start of the ray may be off the hit by the offset, and the end by rounding.
-    let offset = observation.known.fair.map_or(0.0, |fair| fair.start.length());
-    let allowed = 1e-3 + (2.0 * tolerance + offset) / way.length();
-    let direction = way.normalize();
-    if direction.distance(Vec3::from_array(expected)) < allowed {
-        let reason = "the direction is right, but the scattered ray starts elsewhere";
-        return Some(guess(Section::HemisphereRayTransformation, reason));
-    }
-    let normal = Vec3::from_array(hit.normal);
-    let frame = Mat3::from_cols(tangent.into(), bitangent.into(), normal);
-    let local = sample_hemisphere(u1, u2);
-    let fits = |hypothesis: &Vec3| {
-        hypothesis.try_normalize().is_some_and(|it| it.distance(direction) < allowed)
-    };
-    let numbers = Numbers { roulette: hit.roulette, u1, u2 };
-    for (section, reason, hypothesis) in directions(frame, numbers) {
-        if fits(&hypothesis) {
-            return Some(certain(section, reason));
-        }
-    }
-    // With columns of another length than 1 the transpose is not the inverse.
-    let orthonormal =
-        Mat3::from_cols(frame.x_axis.normalize_or_zero(), frame.y_axis.normalize_or_zero(), normal);
-    let found = orthonormal.transpose() * direction;
-    let (section, reason) = judge_tangent_space(found, local.normalize(), allowed)?;
-    Some(observation.sure(section, reason))
-}
-
-/// Judges a direction that no hypothesis explains by what is left of the right one: `found` and
-/// `expected` are unit vectors in tangent space.
-fn judge_tangent_space(
-    found: Vec3,
-    expected: Vec3,
-    allowed: f32,
-) -> Option<(Section, &'static str)> {
-    let around = |v: Vec3| Vec3::new(v.x, v.y, 0.0).normalize_or_zero();
-    if found.z < -allowed {
-        return Some((Section::HemisphereRayTransformation, "the photon leaves below the surface"));
-    }
-    // Near the normal the azimuth means nothing.
-    let lowest = 0.1;
-    let has_azimuth = found.truncate().length() > lowest && expected.truncate().length() > lowest;
-    if has_azimuth && around(found).distance(around(expected)) < allowed / lowest {
-        return Some((
-            Section::HemisphereSampling,
-            "the azimuth is right, the angle to the normal is not",
-        ));
-    }
-    if (found.z - expected.z).abs() < allowed {
-        return Some((
-            Section::HemisphereRayTransformation,
-            "the angle to the normal is right, the azimuth is not",
-        ));
-    }
-    None
 }
 
 /// `vector` if it is a unit vector, as a direction to the light should be.

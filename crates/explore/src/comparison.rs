@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use compare::alignment::{Pairing, align, with_bounces};
 use compare::differences::Differences;
 use compare::numbers::thousands;
-use compare::report::{Outcome, RandomNumbers, Report, compare, scene_size};
+use compare::report::{Outcome, RandomNumbers, Report, TOLERANCE, compare};
 use photon_list::reader::PhotonList;
 use serde_json::{Value, json};
 use variants::run::Run;
@@ -19,15 +19,6 @@ use super::parting::PartingStep;
 const MOST_LARGE: u64 = 2000;
 
 const HEAD: &str = include_str!("../assets/comparison.html");
-
-/// How far apart two positions may be that count as one, as a part of the scene's longest edge: the
-/// default of `compare`.
-const TOLERANCE: f32 = 1e-4;
-
-/// [`TOLERANCE`] in the scene of `run`, in world units.
-pub(crate) fn tolerance(run: &Run) -> f32 {
-    TOLERANCE * run.placement.length_to_world(scene_size(run.scene()))
-}
 
 /// What the other list is.
 #[derive(Clone, Debug)]
@@ -58,7 +49,7 @@ pub struct ListComparison {
 impl ListComparison {
     /// Compares `submission` with `reference`, the list of `run`.
     pub fn new(other: Other, reference: PhotonList, submission: PhotonList, run: &Run) -> Self {
-        let tolerance = tolerance(run);
+        let tolerance = TOLERANCE * run.size();
         let report = compare(&reference, &submission, Some(run), tolerance, 0.0);
         let reference = with_bounces(&reference).into_owned();
         let submission = with_bounces(&submission).into_owned();

@@ -21,13 +21,8 @@ mod paths;
 mod scene;
 mod table;
 
-use std::convert::Infallible;
-use std::ops::Range;
-
 use image::RgbImage;
 use oracle::summary::SurfaceSummary;
-use photon_list::reader::PhotonList;
-use photon_list::record::Columns;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
 
@@ -50,24 +45,6 @@ pub struct Exploration<'a> {
     pub photon: Option<u64>,
     /// The list that is laid over the run's.
     pub comparison: Option<&'a ListComparison>,
-}
-
-/// What `run` stores of `photons`.
-pub fn stored(run: &Run, photons: Range<u64>) -> Vec<PhotonRecord> {
-    let mut records = Vec::new();
-    let traced: Result<_, Infallible> = run.trace_list(photons, |piece, _| {
-        records.extend_from_slice(piece);
-        Ok(())
-    });
-    let Ok(_) = traced;
-    records
-}
-
-/// The list of `records`, which tell everything.
-pub fn list_of(records: Vec<PhotonRecord>) -> PhotonList {
-    let columns =
-        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-    PhotonList { columns, records }
 }
 
 /// The name of `run` in its page.

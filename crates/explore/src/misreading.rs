@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use compare::position_index::is_near;
+use compare::report::TOLERANCE;
 use fast::lanes::offset::Offset;
 use glam::Vec3;
 use model::facets::facets;
@@ -15,9 +16,6 @@ use variants::reading::Reading;
 use variants::run::Run;
 use variants::section::Section;
 use variants::variation::Simulation;
-
-use super::comparison::tolerance;
-use super::stored;
 
 /// A run with so few bounces allowed shows paths that end one bounce too early. With the handout's
 /// 1000, no path is that long.
@@ -85,14 +83,14 @@ pub fn trace(name: &str, run: &Run) -> Option<(ShownMisreading, Vec<PhotonRecord
         // is.
         "no-offset" => {
             let reading = Reading { offset: Offset::None, ..run.reading };
-            Some(stored(&Run { reading, ..run.clone() }, all.clone()))
+            Some((Run { reading, ..run.clone() }).records(all.clone()))
         }
         "stored-twice" => {
-            Some(stored(run, all.clone()).into_iter().flat_map(|record| [record; 2]).collect())
+            Some(run.records(all.clone()).into_iter().flat_map(|record| [record; 2]).collect())
         }
         "repeated-paths" => {
             let of_thread = emitted.div_ceil(THREADS);
-            let first = stored(run, 0..of_thread);
+            let first = run.records(0..of_thread);
             let again = |thread: u64| {
                 let number = (thread * of_thread) as u32;
                 first
@@ -133,8 +131,9 @@ pub fn recognize(list: &PhotonList, run: &Run) -> Option<ShownMisreading> {
     let mut few = run.clone();
     few.renderer.photon_count = few.renderer.photon_count.min(PHOTONS_TRIED);
     let emitted = few.renderer.emitted();
-    let wrong = |traced: &[PhotonRecord]| wrong_records(list, traced, emitted, tolerance(run));
-    let without_any = wrong(&stored(&few, 0..emitted));
+    let wrong =
+        |traced: &[PhotonRecord]| wrong_records(list, traced, emitted, TOLERANCE * run.size());
+    let without_any = wrong(&few.records(0..emitted));
     let most = (without_any as f64 * LEFT_WRONG) as usize;
     let tried = names().into_par_iter().filter_map(|name| {
         let (misreading, records) = trace(name, &few)?;

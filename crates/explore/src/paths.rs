@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use compare::explain::{Ending, Story, explain};
-use compare::report::scene_size;
 use glam::Vec3;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
@@ -65,7 +64,7 @@ impl Paths {
         add_paths(&mut columns, &stories, &faces, run);
         add_dots(&mut columns, &stories, exploration);
         let first = records.first().map(|record| u64::from(record.photon));
-        let size = placement.length_to_world(scene_size(scene));
+        let size = run.size();
         let parting = exploration.comparison.and_then(ListComparison::parting);
         let lights = scene.lights().iter();
         let [camera, first_camera] = cameras(exploration.is_handout, &faces, size);

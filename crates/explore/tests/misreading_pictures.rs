@@ -4,7 +4,6 @@
 use std::path::{Path, PathBuf};
 
 use explore::misreading::{FEW_BOUNCES, names, needs_few_bounces, trace};
-use explore::stored;
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
@@ -62,7 +61,7 @@ fn the_documentation_has_the_pictures() {
         run.renderer.max_photon_bounces = max_bounces.unwrap_or(run.renderer.max_photon_bounces);
         run
     };
-    let plain = |run: &Run| small(&picture(&stored(run, 0..EMITTED)));
+    let plain = |run: &Run| small(&picture(&run.records(0..EMITTED)));
     let reference = plain(&run(None));
     for name in names() {
         let few = needs_few_bounces(name).then_some(FEW_BOUNCES);

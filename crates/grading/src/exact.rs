@@ -2,10 +2,9 @@
 
 use super::submission::Settings;
 use super::verdict::Finding;
-use crate::limits::exact::{BY_ROUNDING, MOST_COMPARED, MOST_PHOTONS, PROBES, SAME_HIT, TOLERANCE};
-use compare::report::{Outcome, Report, compare, scene_size};
+use crate::limits::exact::{BY_ROUNDING, MOST_COMPARED, MOST_PHOTONS, PROBES, SAME_HIT};
+use compare::report::{Outcome, Report, TOLERANCE, compare};
 use photon_list::reader::PhotonList;
-use photon_list::record::Columns;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use variants::run::Run;
@@ -30,17 +29,8 @@ pub fn exact_comparison(
     if !follows(list, &run.renderer) {
         return None;
     }
-    let mut records: Vec<PhotonRecord> = Vec::new();
-    let traced: Result<_, std::convert::Infallible> =
-        run.trace_list(0..run.renderer.emitted(), |piece, _| {
-            records.extend_from_slice(piece);
-            Ok(())
-        });
-    let Ok(_) = traced;
-    let all =
-        Columns { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
-    let reference = PhotonList { columns: all, records };
-    let tolerance = TOLERANCE * scene_size(run.scene());
+    let reference = PhotonList::of(run.records(0..run.renderer.emitted()));
+    let tolerance = TOLERANCE * run.size();
     let report = compare(&reference, list, Some(&run), tolerance, BY_ROUNDING);
     Some(finding_of(&report))
 }

@@ -18,6 +18,7 @@
 //! cosine law. Light comes from points, equally in all directions. Results do not depend on units,
 //! place, or number of threads.
 
+mod between_meshes;
 mod bounces;
 mod cuts;
 mod direct;
@@ -28,6 +29,7 @@ mod for_scene;
 mod mesh;
 mod polygon;
 mod scene;
+mod settings;
 mod solid_angle;
 mod solve;
 pub mod summary;

@@ -36,6 +36,13 @@ pub struct PhotonList {
     pub records: Vec<PhotonRecord>,
 }
 
+impl PhotonList {
+    /// The list of `records`, which tell everything.
+    pub fn of(records: Vec<PhotonRecord>) -> Self {
+        Self { columns: Columns::ALL, records }
+    }
+}
+
 /// What is to be said about how a list is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {

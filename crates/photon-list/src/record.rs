@@ -156,10 +156,9 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Whether no column is missing.
-    pub fn all(&self) -> bool {
-        self.intensity && self.to_light && self.photon && self.bounce && self.surface
-    }
+    /// All of them.
+    pub const ALL: Self =
+        Self { intensity: true, to_light: true, photon: true, bounce: true, surface: true };
 
     /// What a file has whose columns are at `places` of
     /// [`COLUMNS`](photon_mapping::photon_list::COLUMNS).

@@ -1,5 +1,6 @@
 //! A run of the assignment in any scene and under any reading.
 
+use std::convert::Infallible;
 use std::ops::Range;
 
 use fast::lanes::LaneTracer;
@@ -53,6 +54,14 @@ impl Run {
     /// The scene, in its own space.
     pub fn scene(&self) -> &Scene {
         &self.renderer.stored_scene
+    }
+
+    /// The longest edge of the scene's bounding box, in world units.
+    pub fn size(&self) -> f32 {
+        let vertices = || self.scene().triangles().iter().flat_map(|triangle| triangle.vertices);
+        let low = vertices().fold(Vec3::INFINITY, Vec3::min);
+        let high = vertices().fold(Vec3::NEG_INFINITY, Vec3::max);
+        self.placement.length_to_world((high - low).max_element())
     }
 
     /// Whether the port traces it.
@@ -160,6 +169,16 @@ impl Run {
             |(end, records)| consume(&records, end - photons.start),
         )?;
         Ok(None)
+    }
+
+    /// What the photons numbered `photons` store, traced as by [`Self::trace_list`].
+    pub fn records(&self, photons: Range<u64>) -> Vec<PhotonRecord> {
+        let mut records = Vec::new();
+        let Ok(_) = self.trace_list(photons, |piece, _| {
+            records.extend_from_slice(piece);
+            Ok::<_, Infallible>(())
+        });
+        records
     }
 
     /// Lanes for this run, whose records are in the scene's space; `None` where they cannot trace

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use explore::Exploration;
 use explore::comparison::ListComparison;
-use explore::{Exploration, list_of, stored};
 use fast::lanes::picture::take_picture;
 use fast::lanes::width::Width;
 use image::RgbImage;
@@ -37,7 +37,7 @@ impl Traced {
     /// Traces `run`, for which `expected` is known.
     pub fn of(mut run: Run, expected: Option<&ExpectedTable>) -> Self {
         let emitted = run.renderer.emitted();
-        let records = stored(&run, 0..emitted);
+        let records = run.records(0..emitted);
         let names = run.scene().mesh_objects().iter().map(|object| object.name.clone());
         let mut tally = Tally::new(names);
         records.iter().for_each(|record| tally.add(record));
@@ -52,7 +52,7 @@ impl Traced {
 
     /// Its list.
     pub fn list(&self) -> PhotonList {
-        list_of(self.records.clone())
+        PhotonList::of(self.records.clone())
     }
 
     /// What its page shows, with `comparison` laid over it.

@@ -37,8 +37,6 @@ pub(crate) mod axes {
 
 /// Lists that follow the streams of the reference.
 pub(crate) mod exact {
-    /// How close two positions must be that count as one, as a part of the scene's longest edge.
-    pub(crate) const TOLERANCE: f32 = 1e-4;
     /// The part of the records that may differ by rounding alone, where light grazes an edge.
     pub(crate) const BY_ROUNDING: f32 = 1e-3;
     /// How many photons are looked at to see whether a list follows our streams.
