@@ -54,7 +54,7 @@ function drawPath(step) {
   const leg = (a, b, isReached) =>
     lines.push({ a, b, color: "text", ...(isReached ? { width: 3 } : { dash: 7, alpha: 0.6 }) });
   points.slice(1).forEach((b, i) => leg(points[i], b, i <= reached));
-  if (ending === "left_the_scene") {
+  if (ending === "miss") {
     const way = hits.at(-1)?.direction ?? direction;
     leg(points.at(-1), add(points.at(-1), way, size * 0.4), reached >= hits.length);
   }
@@ -68,7 +68,7 @@ function drawPath(step) {
     marks.push({ at: other, color: "extra", shape: "cross" });
   }
   marks.push(...run.lights.map((at) => ({ at, color: "light", shape: "diamond" })));
-  lines.push(...(step.lines ?? []));
+  if (hits[step.bounce]) lines.push(...linesOf(step.name, hits[step.bounce]));
   view.setLines("path", lines);
   view.setMarks(marks);
   const label = (words, point, down) => Object.assign(make("span", {}, words), { point, down });
@@ -78,6 +78,33 @@ function drawPath(step) {
     ...hits.map(({ stored, bounce, position }) =>
       label(stored ? String(bounce) : "0, not stored", position, 6)));
   placeLabels();
+}
+
+/** What a step draws at its hit. Lines with a `name` have it at their end. */
+function linesOf(name, hit) {
+  const { position, direction, face: { normal, tangent, bitangent }, u1 } = hit;
+  const arrow = (axis, color, more) =>
+    ({ a: position, b: add(position, axis, run.size * 0.13), color, width: 3, ...more });
+  const n = arrow(normal, "one", { name: "n" });
+  if (name === "hit") return [n];
+  if (!direction) return [];
+  const ray = arrow(scale(direction, 1.5), "text");
+  const flat = add(direction, normal, -Math.sqrt(1 - u1));
+  const disk = (angle) => add(scale(tangent, Math.cos(angle)), bitangent, Math.sin(angle));
+  return {
+    hemisphere: () => [
+      n, arrow(flat, "extra", { name: "r" }), arrow(direction, "text"),
+      { ...arrow(direction, "text"), a: arrow(flat).b, width: 1.5, dash: 6 },
+      ...Array.from({ length: 32 }, (_, i) => (Math.PI * i) / 16).map((angle) =>
+        ({ a: arrow(disk(angle)).b, b: arrow(disk(angle + Math.PI / 16)).b, color: "text" })),
+    ],
+    frame: () => [
+      // Longer than the true one, so that it is in sight behind it.
+      ...(isUnit(hit.face) ? [] : [arrow(scale(bareWay(hit), 1.95), "extra", { dash: 7 })]),
+      arrow(tangent, "extra", { name: "t" }), arrow(bitangent, "three", { name: "b" }), n, ray,
+    ],
+    ray: () => [ray, n],
+  }[name]?.() ?? [];
 }
 
 /** Puts each label at its point, below those before it that stand there. */

@@ -106,7 +106,8 @@ function storyOf(run, photon) {
     square = lengthSquared(tries.at(-1));
   } while (square > 1 || square === 0);
   const light = run.lights[run.pathLight[path]];
-  const ending = ["absorbed", "left_the_scene", "bounce_limit"][run.pathEnding[path]];
+  /** The step after the last hit, if the photon was not absorbed there. */
+  const ending = [null, "miss", "limit"][run.pathEnding[path]];
   // In f32, as Rust computes them; Rust packs them where this would give other bits.
   const by = round(1 / round(Math.sqrt(square)));
   const direction = run.emission
@@ -118,7 +119,7 @@ function storyOf(run, photon) {
     const position = stored ? run.place(found.dot + bounce - 1)
       : run.direct ? vectorOf(run.direct, path)
       : light.map((x, i) => round(x + round(t * direction[i])));
-    const scattered = bounce + 1 < count || ending !== "absorbed";
+    const scattered = bounce + 1 < count || ending !== null;
     const hit = { bounce, face, surface, survival, diffuse, t, position, stored, scattered };
     hit.roulette = rand();
     if (scattered) {

@@ -22,7 +22,7 @@ function open(photon, bounce, name) {
       return say(
         `Photon ${thousands(photon)} has no story here: it stores no photon${run.orLeftOut}. ` +
           `Run photon-mapping explore --photon ${photon} to get it.`);
-    Object.assign(page, { photon, story, steps: stepsOf(run, story) });
+    Object.assign(page, { photon, story, steps: stepsOf(story) });
     $("slider").max = page.steps.length - 1;
     if (run.comparison) showDots();
   }
@@ -32,10 +32,12 @@ function open(photon, bounce, name) {
   go(exact >= 0 ? exact : near);
 }
 
+const linkTo = (photon, bounce, name) => `#photon=${photon}&bounce=${bounce}&step=${name}`;
+
 function go(at) {
   page.at = clamp(at, 0, page.steps.length - 1);
   const { bounce, name } = page.steps[page.at];
-  page.link = `#photon=${page.photon}&bounce=${bounce}&step=${name}`;
+  page.link = linkTo(page.photon, bounce, name);
   // Browsers refuse more than a few changes of the address a second.
   page.address ??= setTimeout(() => {
     page.address = null;
@@ -76,65 +78,46 @@ function play(on) {
   if (on && isLast()) go(0);
 }
 
-/** The code of the step `name`, which Rust wrote, with its titles. */
-const codeOf = (name) => $(`code-${name}`);
-
 function showStep() {
-  const { steps, at } = page, step = steps[at];
+  const { steps, at, story } = page, step = steps[at];
   if (!step) return;
-  const { title, dataset: { short } } = codeOf(step.name);
+  const { title, content, dataset: { short } } = $(`step-${step.name}`);
   $("photon").value = page.photon;
   $("slider").value = at;
   $("slider").setAttribute("aria-valuetext", `bounce ${step.bounce}, ${short}`);
   $("place").textContent = `${at + 1} of ${steps.length}`;
   $("step-title").textContent = title;
-  $("say").replaceChildren(...step.say.map((words) => make("p", {}, words)));
-  $("drawing").innerHTML = step.diagram?.() ?? "";
-  $("more").replaceChildren(...(step.more ?? []).flatMap(([name, value]) =>
-    [make("dt", {}, name), make("dd", {}, value)]));
+  $("code").replaceChildren(content.cloneNode(true));
+  fill($("code"), valuesOf(run, story, step));
+  $("say").replaceChildren(...$("code").querySelectorAll("p"));
+  // The first line that runs is the first in sight.
+  for (const list of $("code").querySelectorAll("ol"))
+    list.scrollTop = list.querySelector(".lit")?.offsetTop ?? 0;
   $("sides").hidden = !isDivergence(step);
   showChips(step);
-  showCode(step);
   drawPath(step);
 }
 
-/** The bounces of the path, and the steps of the bounce that is open, as buttons. */
+/** The bounces of the path, and the steps of the bounce that is open, as links. */
 function showChips(here) {
-  const { steps, at, story: { hits, ending } } = page, last = steps.length - 1;
-  const chip = (words, isHere, onclick) => {
-    const button = make("button", { onclick }, words);
-    if (isHere) button.setAttribute("aria-current", "step");
-    return button;
-  };
-  const bounces = hits.map(({ bounce, surface }) =>
-    chip(`${bounce} ${surface}`, here.bounce === bounce, () => goToBounce(bounce)));
-  const end = ending === "absorbed" ? "absorbed"
-    : chip(ENDINGS[ending], at === last, () => go(last));
-  const names = steps.map(({ bounce, name }, i) =>
-    bounce === here.bounce ? chip(codeOf(name).dataset.short, i === at, () => go(i)) : "");
+  const { photon, steps, story: { hits, ending } } = page;
+  const short = (name) => $(`step-${name}`).dataset.short;
+  const chip = (words, { bounce, name }, isHere) =>
+    make("a", { href: linkTo(photon, bounce, name), ariaCurrent: isHere ? "step" : null }, words);
+  const toBounce = (words, bounce) =>
+    chip(words, { bounce, name: here.name }, bounce === here.bounce);
+  const bounces = hits.map(({ bounce, surface }) => toBounce(`${bounce} ${surface}`, bounce));
+  const end = ending ? toBounce(short(ending), hits.length) : "absorbed";
   $("path").replaceChildren("Bounce", ...bounces, end);
-  $("names").replaceChildren(...names);
+  $("names").replaceChildren(...steps.filter(({ bounce }) => bounce === here.bounce)
+    .map((step) => chip(short(step.name), step, step === here)));
   // Where a row does not fit, the one that is open is in sight.
   for (const row of [$("path"), $("names")]) {
-    const open = row.querySelector("[aria-current]");
-    row.scrollLeft = open ? open.offsetLeft - row.offsetLeft - row.clientWidth / 3 : 0;
+    const { offsetLeft } = row.querySelector("[aria-current]");
+    row.scrollLeft = offsetLeft - row.offsetLeft - row.clientWidth / 3;
   }
 }
 
 /** Whether the lists part at `step`. */
 const isDivergence = ({ bounce, name }) =>
   run.comparison?.parts && [page.photon, bounce, name].join() === run.start.join();
-
-/** The code of a step, with values beside the lines that make them. */
-function showCode({ name, holds, values }) {
-  const code = $("code");
-  code.replaceChildren(codeOf(name).content.cloneNode(true));
-  for (const place of code.querySelectorAll(".value"))
-    if (place.dataset.name in values) place.textContent = values[place.dataset.name];
-    else place.remove();
-  for (const [condition, is] of Object.entries(holds))
-    for (const line of code.querySelectorAll(`.${condition}-${!is}`)) line.className = "skipped";
-  // The first line that runs is the first in sight.
-  for (const list of code.querySelectorAll("ol"))
-    list.scrollTop = list.querySelector(".lit")?.offsetTop ?? 0;
-}

@@ -15,8 +15,8 @@ use super::html::{escape, fill};
 use super::paths::Paths;
 use super::table::table;
 
-/// The port's source as the page shows it, found when this crate was built.
-const CODE: &str = include_str!(concat!(env!("OUT_DIR"), "/code.html"));
+/// The steps with the port's source, found when this crate was built.
+const STEPS: &str = include_str!(concat!(env!("OUT_DIR"), "/steps.html"));
 const TEMPLATE: &str = include_str!("../assets/explore.html");
 const STYLE: &str = include_str!("../assets/explore.css");
 /// One script in strict mode, whose names do not leave it.
@@ -26,7 +26,6 @@ const SCRIPT: &str = concat!(
     include_str!("../assets/view.js"),
     include_str!("../assets/shaders.js"),
     include_str!("../assets/orbit.js"),
-    include_str!("../assets/diagrams.js"),
     include_str!("../assets/story.js"),
     include_str!("../assets/box.js"),
     include_str!("../assets/panel.js"),
@@ -72,7 +71,7 @@ pub fn page(exploration: &Exploration) -> String {
         ("cells", cells),
         ("table", table(exploration.table, comparison)),
         ("sides", comparison.map(ListComparison::sides).unwrap_or_default()),
-        ("code", CODE.to_owned()),
+        ("steps", STEPS.to_owned()),
         ("meta", meta),
         ("data", data),
         ("script", SCRIPT.to_owned()),

@@ -94,7 +94,7 @@ fn every_misreading_opens_where_it_differs() {
         }
         // A list whose records tell their photon opens it from there, as a whole of the story.
         let story = explain(&reference.run, photon.into()).expect("emitted");
-        let chips = browser.run("document.querySelectorAll('#path button').length");
+        let chips = browser.run("document.querySelectorAll('#path a').length");
         assert!(float(&chips) >= story.hits.len() as f64, "{name}");
     }
     browser.has_been_quiet();

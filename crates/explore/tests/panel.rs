@@ -17,8 +17,8 @@ const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
     link: page.link, say: document.getElementById('say').textContent,
     values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => \
         [v.dataset.name, v.textContent])),
-    more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, \
-        t.nextSibling.textContent])),
+    more: Object.fromEntries([...document.querySelectorAll('#code dt')].map((t) => [t.textContent, \
+        t.nextElementSibling.textContent.trim().replace(/\\s+/g, ' ')])),
     lit: [...document.querySelectorAll('#code .lit code')].map((c) => c.textContent.trim()),
     skipped: [...document.querySelectorAll('#code span.skipped')].map((c) => c.textContent) }; })";
 
@@ -52,7 +52,7 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     let pushed = if hit.stored { "runs" } else { "skipped" };
     assert_eq!(stored["values"]["photon_map.push()"], pushed);
     assert_eq!(stored["values"]["path.len()"], (hit.bounce + 1).to_string());
-    assert_eq!(roulette["values"]["rand()"], hit.roulette.to_string());
+    assert_eq!(roulette["values"]["u"], hit.roulette.to_string());
     assert_eq!(roulette["values"]["probability_of_reflection"], hit.survival.to_string());
     assert!(is_lit(&at_hit, "if remaining_bounces < 0 {"));
     assert!(is_lit(&stored, "if path.len() > 1 {"));

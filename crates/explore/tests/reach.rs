@@ -82,12 +82,12 @@ fn it_works_on_a_phone() {
     }
     browser.run("document.getElementById('filters').open = true");
     // A box to tick is as large as its label.
-    let smallest = "Math.min(...[...document.querySelectorAll('button, input, select, summary')]\
+    let smallest = "Math.min(...[...document.querySelectorAll('button, input, select, summary, .chips a')]\
          .filter((n) => n.offsetParent).map((n) => n.type === 'checkbox' ? n.parentNode : n)\
          .map((n) => n.getBoundingClientRect()).map((r) => Math.min(r.width, r.height)))";
     assert!(float(&browser.run(smallest)) >= 40.0, "{}", browser.run(smallest));
     let place = browser.run(
-        "(() => { const b = [...document.querySelectorAll('#names button')].find((b) => \
+        "(() => { const b = [...document.querySelectorAll('#names a')].find((b) => \
          b.textContent === 'Roulette'); b.scrollIntoView({ block: 'center' }); const r = \
          b.getBoundingClientRect(); return [r.x + 9, r.y + 9]; })()",
     );
@@ -111,7 +111,9 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
             // At once, with a line of code that runs.
             ["#labels", "#say", "#forward", "#code .lit"].into_iter().for_each(is_in_sight);
             // Further down, the box and the buttons that step stay.
-            browser.run("document.querySelector('#code').scrollIntoView({ block: 'end' })");
+            browser.run(
+                "document.querySelector('#code figure:last-of-type').scrollIntoView({ block: 'end' })",
+            );
             assert!(float(&browser.run("window.scrollY")) > 0.0);
             is_in_sight("#forward");
             assert_eq!(browser.edges("#stage")[1], 0.0, "{step} at {width} x {height}");

@@ -5,16 +5,21 @@ use super::branches::Arm;
 use super::steps::PortStep;
 use super::{FoundFunction, FoundPart, PortSource};
 
-/// A template for each step of `source`.
-pub fn templates(source: &PortSource) -> String {
+/// The blocks of `words`, one for each step of `source`, with the step's title and code.
+///
+/// # Errors
+/// The step that has no block, or the place that its block lacks.
+pub fn templates(source: &PortSource, words: &str) -> Result<String, String> {
     let template = |(step, parts): &(&PortStep, Vec<FoundPart>)| {
-        let PortStep { name, short, section, .. } = step;
+        let start = format!("<template id=\"step-{}\" ", step.name);
+        let missing = |what: &str| format!("assets/steps.html: expected '{what}' in '{start}'");
+        let block = words.split_once(&start).and_then(|(_, rest)| rest.split_once("</template>"));
+        let (block, _) = block.ok_or_else(|| missing("</template>"))?;
+        let (head, rest) = block.split_once("{title}").ok_or_else(|| missing("{title}"))?;
+        let (before, after) = rest.split_once("{code}").ok_or_else(|| missing("{code}"))?;
         let figures = parts.iter().map(|part| figure(&source.functions[part.function], part));
-        let figures: String = figures.collect();
-        format!(
-            "<template id=\"code-{name}\" data-short=\"{short}\" title=\"{section}\">{figures}\
-             </template>\n"
-        )
+        let (title, figures) = (step.section, figures.collect::<String>());
+        Ok(format!("{start}{head}{title}{before}{figures}{after}</template>\n"))
     };
     source.steps.iter().map(template).collect()
 }
