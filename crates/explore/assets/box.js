@@ -1,135 +1,131 @@
-// The page: the box, and the path in it.
+// The page: the box, and the path over it.
 
 function showBox() {
-  const column = (value) =>
-    [new Float32Array(run.faces.flatMap((face) =>
-      face.triangles.flat().flatMap((corner) => value(face, corner)))), 3];
-  view.setLayer("surfaces", "surfaces", [
-    column((_, corner) => corner),
-    column((face) => face.normal),
-    column((face) => run.surfaces[face.surface].diffuse),
-  ]);
-  view.light = run.lights[0];
-  view.dotSize = run.dotSize;
+  const points = run.faces.flatMap(({ triangles, normal, surface }) =>
+    triangles.flat().map((at) => [at, [...run.surfaces[surface].diffuse_response, 1], normal]));
+  view.setLayer("walls", "TRIANGLES",
+    ...[0, 1, 2].map((i) => new Float32Array(points.flatMap((point) => point[i]))));
+  Object.assign(view, { light: run.lights[0], dotSize: run.dotSize });
   orbit(view, (x, y) => openDot(view.pick(x, y)), (x, y) => {
     const dot = view.pick(x, y);
     if (dot >= 0) view.look({ target: run.place(dot) });
   });
-  view.look({ ...run.firstCamera, size: run.size });
+  view.look(run.firstCamera);
+  view.canvas.addEventListener("webglcontextlost", showPicture);
   readColors();
-  view.canvas.addEventListener("webglcontextlost", () => {
-    view = null;
-    showPicture();
-  });
 }
 
-/** What stands in for the box where there is no WebGL. */
+/** Shows what stands in for the box where there is no WebGL: the picture, and the path over it. */
 function showPicture() {
   $("trouble").hidden = $("picture").hidden = false;
-  $("view").hidden = true;
+  Object.assign(view, { gl: null, camera: run.camera });
+  // Of another scene, the camera of the picture is not known here.
+  $("over").style.display = run.isHandout ? "" : "none";
   showDots();
+}
+
+/** The four bytes of a color of the style sheet. */
+function colorOf(name, alpha = 1) {
+  $("over").style.color = `var(--${name})`;
+  const { color } = getComputedStyle($("over"));
+  $("over").style.color = "";
+  return [...color.match(/\d+/g).map(Number), 255 * alpha];
 }
 
 function readColors() {
-  if (!view) return;
-  const probe = $("labels");
-  const color = (name) => {
-    probe.style.color = `var(--${name})`;
-    return getComputedStyle(probe).color.match(/\d+/g).map((byte) => byte / 255);
-  };
-  Object.assign(view, { palette: COLORS.map(color), air: color("air") });
-  probe.style.color = "";
-  view.setLines("edges", run.edges.map(([a, b]) => ({ a, b, color: "edge", width: 1 })));
+  view.air = scale(colorOf("air").slice(0, 3), 1 / 255);
+  setLines("edges", run.edges, colorOf("edge"));
   showDots();
-  showStep();
 }
 
-function drawPath(step) {
-  if (!view) return;
-  const { hits, light, direction, ending } = page.story, { comparison, size } = run;
-  const isEmission = step.name === "emission", reached = isEmission ? -1 : step.bounce;
-  const points = [light, ...hits.map((hit) => hit.position)];
-  const lines = [];
-  // What is still to come is thin and dashed.
-  const leg = (a, b, isReached) =>
-    lines.push({ a, b, color: "text", ...(isReached ? { width: 3 } : { dash: 7, alpha: 0.6 }) });
-  points.slice(1).forEach((b, i) => leg(points[i], b, i <= reached));
-  if (ending === "miss") {
-    const way = hits.at(-1)?.direction ?? direction;
-    leg(points.at(-1), add(points.at(-1), way, size * 0.4), reached >= hits.length);
-  }
-  if (isEmission) leg(light, add(light, direction, size * 0.2), true);
-  const marks = hits.map(({ position: at, stored }, i) =>
-    ({ at, color: i <= reached ? "text" : "gray", shape: stored ? "circle" : "ring" }));
-  const other = isDivergence(step) && comparison.other;
+function setLines(name, lines, color) {
+  const points = lines.flat();
+  view.setLayer(name, "LINES", new Float32Array(points.flat()),
+    new Uint8Array(points.flatMap(() => color)));
+}
+
+/** Draws the path over the box: lines and texts, each of a kind that the style sheet knows. */
+function showPath() {
+  const { step, photon, story: { hits, light, direction, ending } } = page;
+  const reached = step.name === "emission" ? 0 : step.bounce + 1;
+  const points = [light, ...hits.map(({ position }) => position)];
+  if (ending === "miss")
+    points.push(add(points.at(-1), hits.at(-1)?.direction ?? direction, run.size * 0.4));
+  const lines = points.slice(1).map((b, i) =>
+    ({ kind: i < reached ? "leg" : "leg ahead", line: [points[i], b] }));
+  const marks = hits.map(({ position, stored }, i) =>
+    ({ kind: i < reached ? "mark" : "mark ahead", text: stored ? "●" : "○", at: position }));
+  marks.push(...run.lights.map((at) => ({ kind: "mark light", text: "◆", at })));
+  run.movedIndex.forEach((dot, k) => {
+    if (run.dots.photon[dot] === photon)
+      lines.push({ kind: "moved", line: [run.place(dot), run.place(run.stored + k)] });
+  });
+  const other = isDivergence() && run.comparison.other;
   if (other) {
-    const from = points[step.bounce + (isEmission || step.name === "stored" ? 0 : 1)];
-    lines.push({ a: from, b: other, color: "extra", width: 3, dash: 9 });
-    marks.push({ at: other, color: "extra", shape: "cross" });
+    const from = points[step.name === "stored" ? step.bounce : reached];
+    lines.push({ kind: "extra dash", line: [from, other] });
+    marks.push({ kind: "mark extra", text: "×", at: other });
   }
-  marks.push(...run.lights.map((at) => ({ at, color: "light", shape: "diamond" })));
-  if (hits[step.bounce]) lines.push(...linesOf(step.name, hits[step.bounce]));
-  view.setLines("path", lines);
-  view.setMarks(marks);
-  const label = (words, point, down) => Object.assign(make("span", {}, words), { point, down });
-  $("labels").replaceChildren(
-    label("light", light, -20),
-    ...lines.filter(({ name }) => name).map(({ name, b }) => label(name, b, -12)),
+  lines.push(...linesOf(step.name, page.story, hits[step.bounce]));
+  const label = (text, at, down) => ({ kind: "label", text, at, down });
+  page.over = [
+    ...lines, ...marks, label("light", light, -14),
+    ...lines.filter(({ name }) => name).map(({ name, line }) => label(name, line[1], -6)),
     ...hits.map(({ stored, bounce, position }) =>
-      label(stored ? String(bounce) : "0, not stored", position, 6)));
-  placeLabels();
+      label(stored ? `${bounce}` : "0, not stored", position, 14)),
+  ];
+  $("over").innerHTML = page.over.map(({ kind, text }) =>
+    text ? `<text class="${kind}">${text}</text>` : `<path class="${kind}" />`).join("");
+  view.draw();
 }
 
-/** What a step draws at its hit. Lines with a `name` have it at their end. */
-function linesOf(name, hit) {
-  const { position, direction, face: { normal, tangent, bitangent }, u1 } = hit;
-  const arrow = (axis, color, more) =>
-    ({ a: position, b: add(position, axis, run.size * 0.13), color, width: 3, ...more });
-  const n = arrow(normal, "one", { name: "n" });
-  if (name === "hit") return [n];
-  if (!direction) return [];
-  const ray = arrow(scale(direction, 1.5), "text");
-  const flat = add(direction, normal, -Math.sqrt(1 - u1));
-  const disk = (angle) => add(scale(tangent, Math.cos(angle)), bitangent, Math.sin(angle));
-  return {
-    hemisphere: () => [
-      n, arrow(flat, "extra", { name: "r" }), arrow(direction, "text"),
-      { ...arrow(direction, "text"), a: arrow(flat).b, width: 1.5, dash: 6 },
-      ...Array.from({ length: 32 }, (_, i) => (Math.PI * i) / 16).map((angle) =>
-        ({ a: arrow(disk(angle)).b, b: arrow(disk(angle + Math.PI / 16)).b, color: "text" })),
-    ],
-    frame: () => [
-      // Longer than the true one, so that it is in sight behind it.
-      ...(isUnit(hit.face) ? [] : [arrow(scale(bareWay(hit), 1.95), "extra", { dash: 7 })]),
-      arrow(tangent, "extra", { name: "t" }), arrow(bitangent, "three", { name: "b" }), n, ray,
-    ],
-    ray: () => [ray, n],
-  }[name]?.() ?? [];
+/** What a step draws at its hit, or at the light. */
+function linesOf(step, { light, direction: emitted }, hit) {
+  const arrow = (from, way, kind, name) =>
+    ({ kind, name, line: [from, add(from, way, run.size * 0.13)] });
+  if (step === "emission") return [arrow(light, emitted, "leg")];
+  if (!hit) return [];
+  const { position, direction, face: { normal, tangent, bitangent } } = hit;
+  const n = arrow(position, normal, "n", "n");
+  if (step === "hit") return [n];
+  if (!["hemisphere", "frame", "ray"].includes(step)) return [];
+  const lines = [n, arrow(position, scale(direction, 1.5), "leg")];
+  // The orange line is longer than the true one, so that it is in sight behind it.
+  if (step === "frame")
+    lines.unshift(arrow(position, scale(bareWay(hit), isUnit(hit.face) ? 0 : 1.95), "extra dash"),
+      arrow(position, tangent, "t", "t"), arrow(position, bitangent, "b", "b"));
+  return lines;
 }
 
-/** Puts each label at its point, below those before it that stand there. */
-function placeLabels() {
-  const { clientWidth: width, clientHeight: height } = $("view");
-  const placed = [];
-  for (const label of $("labels").children) {
-    const [x, y] = view?.project(label.point) ?? [-1, -1];
-    label.hidden = x < 0 || y < 0 || x > width || y > height;
-    if (label.hidden) continue;
-    const [wide, high] = [label.offsetWidth, label.offsetHeight];
-    const left = Math.min(x + 8, width - wide - 2);
-    let top = y + label.down;
-    const isCovered = (other) =>
-      left < other.left + other.wide && other.left < left + wide &&
-      Math.abs(top - other.top) < high;
-    for (let other; (other = placed.find(isCovered)); ) top = other.top + high + 1;
-    placed.push({ left, top, wide });
-    label.style.transform = `translate(${left}px, ${top}px)`;
+/** Puts everything over the box in its place, each label below those before it that stand there. */
+function placePath() {
+  const { clientWidth: width, clientHeight: height } = view.canvas, placed = [];
+  for (const [i, { line, at, down }] of page.over.entries()) {
+    const node = $("over").children[i];
+    if (line) {
+      node.setAttribute("d", view.outline(line).map(([a, b]) => `M${a}L${b}`).join(""));
+      continue;
+    }
+    let [left, top] = view.project(at) ?? [-1, -1];
+    const isOut = left < 0 || top < 0 || left > width || top > height;
+    node.style.display = isOut ? "none" : "";
+    if (down && !isOut) {
+      const { width: wide, height: high } = node.getBBox();
+      left = Math.min(left + 8, width - wide - 2);
+      top += down;
+      const isCovered = (other) =>
+        left < other.left + other.wide && other.left < left + wide &&
+        Math.abs(top - other.top) < high;
+      for (let other; (other = placed.find(isCovered)); ) top = other.top + high + 1;
+      placed.push({ left, top, wide });
+    }
+    node.setAttribute("transform", `translate(${left} ${top})`);
   }
 }
 
 /** Brings the open photon's hit to the middle. */
 function center() {
-  const { light, hits } = page.story, { name, bounce } = page.steps[page.at];
+  const { step: { name, bounce }, story: { light, hits } } = page;
   const hit = name === "emission" ? null : hits[Math.min(bounce, hits.length - 1)];
-  view?.look({ target: hit?.position ?? light, distance: run.size * 0.9 });
+  view.look({ target: hit?.position ?? light, distance: run.size * 0.9 });
 }

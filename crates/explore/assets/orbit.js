@@ -1,30 +1,28 @@
 // The box in 3-D: pointers and the wheel.
 
-/** Lets pointers and the wheel turn `view`. Calls `onClick` for a click and `onCenter` for a
- * double-click. */
+/** Lets pointers and the wheel turn `view`, and tells of clicks and double-clicks. */
 function orbit(view, onClick, onCenter) {
   const { canvas } = view;
-  /** The last event of each finger, or of the mouse. */
+  /** The last place of each finger, or of the mouse. */
   const fingers = new Map();
   let moved = 0;
   const spread = () => {
     const [a, b] = fingers.values();
-    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+    return Math.hypot(a.x - b.x, a.y - b.y);
   };
-  canvas.onpointerdown = (event) => {
-    canvas.setPointerCapture(event.pointerId);
+  canvas.onpointerdown = ({ pointerId, x, y }) => {
+    canvas.setPointerCapture(pointerId);
     if (fingers.size === 0) moved = 0;
-    fingers.set(event.pointerId, event);
+    fingers.set(pointerId, { x, y });
   };
-  canvas.onpointermove = (event) => {
-    const last = fingers.get(event.pointerId);
+  canvas.onpointermove = ({ pointerId, x, y }) => {
+    const last = fingers.get(pointerId);
     if (!last) return;
     const before = fingers.size > 1 && spread();
-    fingers.set(event.pointerId, event);
-    const [dx, dy] = [event.clientX - last.clientX, event.clientY - last.clientY];
-    moved += Math.abs(dx) + Math.abs(dy);
+    fingers.set(pointerId, { x, y });
+    moved += Math.abs(x - last.x) + Math.abs(y - last.y);
     if (before) view.move(0, 0, before / spread());
-    else view.move(dx * 0.006, dy * 0.006);
+    else view.move((x - last.x) * 0.006, (y - last.y) * 0.006);
   };
   canvas.onpointerup = canvas.onpointercancel = ({ pointerId }) => fingers.delete(pointerId);
   canvas.onclick = ({ offsetX, offsetY }) => moved > 6 || onClick(offsetX, offsetY);

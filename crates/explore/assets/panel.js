@@ -1,10 +1,9 @@
 // The page: the story of the open photon, step by step, beside the code.
 
 function openDot(dot) {
-  if (dot < 0) return;
   const photon = run.dots.photon[dot];
   if (photon === UNTOLD) say("This list does not tell the photon of its records.");
-  else open(photon, run.dots.bounce[dot], "stored");
+  else if (dot >= 0) open(photon, run.dots.bounce[dot], "stored");
 }
 
 function say(words) {
@@ -24,20 +23,26 @@ function open(photon, bounce, name) {
           `Run photon-mapping explore --photon ${photon} to get it.`);
     Object.assign(page, { photon, story, steps: stepsOf(story) });
     $("slider").max = page.steps.length - 1;
-    if (run.comparison) showDots();
   }
   say("");
   const exact = page.steps.findIndex((step) => step.bounce === bounce && step.name === name);
-  const near = page.steps.findLastIndex((step) => step.bounce <= bounce);
-  go(exact >= 0 ? exact : near);
+  go(exact >= 0 ? exact : page.steps.findLastIndex((step) => step.bounce <= bounce));
 }
 
 const linkTo = (photon, bounce, name) => `#photon=${photon}&bounce=${bounce}&step=${name}`;
 
+/** Opens what the address names, if it names anything. */
+function followLink() {
+  const link = new URLSearchParams(location.hash.slice(1)), photon = link.get("photon");
+  if (location.hash === page.link || !/^\d+$/.test(photon)) return;
+  open(+photon, +link.get("bounce"), link.get("step") ?? "emission");
+}
+
+/** Goes to the step at the place `at`. */
 function go(at) {
   page.at = clamp(at, 0, page.steps.length - 1);
-  const { bounce, name } = page.steps[page.at];
-  page.link = linkTo(page.photon, bounce, name);
+  const step = (page.step = page.steps[page.at]);
+  page.link = linkTo(page.photon, step.bounce, step.name);
   // Browsers refuse more than a few changes of the address a second.
   page.address ??= setTimeout(() => {
     page.address = null;
@@ -46,27 +51,15 @@ function go(at) {
   showStep();
 }
 
-/** Opens what the address names, if it names anything. */
-function followLink() {
-  const link = new URLSearchParams(location.hash.slice(1));
-  const photon = link.get("photon");
-  if (location.hash === page.link || !/^\d+$/.test(photon)) return;
-  open(Number(photon), Number(link.get("bounce")), link.get("step") ?? "emission");
-}
+/** Goes to the same step of another bounce, or as near to it as the path goes. */
+const goToBounce = (by) => open(page.photon, page.step.bounce + by, page.step.name);
 
 /** Opens the next stored photon, or with `by` -1 the one before. */
 function skip(by) {
-  const { bounce, name } = page.steps[page.at];
-  const stored = run.dots.photon.subarray(0, run.stored);
-  const photon = by > 0
-    ? stored.find((photon) => photon > page.photon)
-    : stored.findLast((photon) => photon < page.photon);
-  if (photon !== undefined) open(photon, bounce, name);
-}
-
-/** Goes to the same step of another bounce, or as near to it as the path goes. */
-function goToBounce(bounce) {
-  open(page.photon, bounce, page.steps[page.at].name);
+  const { paths } = run, { photon, step } = page;
+  const isNext = (path) => path.hits > 1 && (path.photon - photon) * by > 0;
+  const found = by > 0 ? paths.find(isNext) : paths.findLast(isNext);
+  if (found) open(found.photon, step.bounce, step.name);
 }
 
 function play(on) {
@@ -79,12 +72,11 @@ function play(on) {
 }
 
 function showStep() {
-  const { steps, at, story } = page, step = steps[at];
-  if (!step) return;
+  const { photon, story, steps, at, step } = page;
   const { title, content, dataset: { short } } = $(`step-${step.name}`);
-  $("photon").value = page.photon;
+  $("photon").value = photon;
   $("slider").value = at;
-  $("slider").setAttribute("aria-valuetext", `bounce ${step.bounce}, ${short}`);
+  $("slider").ariaValueText = `bounce ${step.bounce}, ${short}`;
   $("place").textContent = `${at + 1} of ${steps.length}`;
   $("step-title").textContent = title;
   $("code").replaceChildren(content.cloneNode(true));
@@ -93,19 +85,22 @@ function showStep() {
   // The first line that runs is the first in sight.
   for (const list of $("code").querySelectorAll("ol"))
     list.scrollTop = list.querySelector(".lit")?.offsetTop ?? 0;
-  $("sides").hidden = !isDivergence(step);
-  showChips(step);
-  drawPath(step);
+  $("sides").hidden = !isDivergence();
+  showChips();
+  showPath();
 }
 
+/** Whether the lists part at the step that is open. */
+const isDivergence = () => page.link === $("divergence")?.getAttribute("href");
+
 /** The bounces of the path, and the steps of the bounce that is open, as links. */
-function showChips(here) {
-  const { photon, steps, story: { hits, ending } } = page;
+function showChips() {
+  const { photon, steps, step: here, story: { hits, ending } } = page;
   const short = (name) => $(`step-${name}`).dataset.short;
   const chip = (words, { bounce, name }, isHere) =>
     make("a", { href: linkTo(photon, bounce, name), ariaCurrent: isHere ? "step" : null }, words);
   const toBounce = (words, bounce) =>
-    chip(words, { bounce, name: here.name }, bounce === here.bounce);
+    chip(words, { ...here, bounce }, bounce === here.bounce);
   const bounces = hits.map(({ bounce, surface }) => toBounce(`${bounce} ${surface}`, bounce));
   const end = ending ? toBounce(short(ending), hits.length) : "absorbed";
   $("path").replaceChildren("Bounce", ...bounces, end);
@@ -117,7 +112,3 @@ function showChips(here) {
     row.scrollLeft = offsetLeft - row.offsetLeft - row.clientWidth / 3;
   }
 }
-
-/** Whether the lists part at `step`. */
-const isDivergence = ({ bounce, name }) =>
-  run.comparison?.parts && [page.photon, bounce, name].join() === run.start.join();

@@ -16,8 +16,8 @@ function stepsOf({ hits, ending }) {
   return steps;
 }
 
-/** The values of a step: those that `steps.html` and the code have places for, whether the branches
- * of both are taken, and the measures of the drawings. */
+/** What a step shows: the values that `steps.html` and the code have places for, whether each of
+ * their branches is taken, and the measures of the drawings. */
 function valuesOf(run, story, { bounce, name }) {
   if (name === "emission") return valuesOfEmission(story);
   const remaining = { remaining_bounces: run.maxBounces - bounce, bounce_limit: name === "limit" };
@@ -26,52 +26,45 @@ function valuesOf(run, story, { bounce, name }) {
 }
 
 function valuesOfEmission({ tries, direction }) {
-  const [x, y, z] = tries.at(-1), rejected = tries.length - 1, drawn = tries.length;
+  const drawn = tries.length, is_first = drawn === 1, [x, y, z] = tries.at(-1);
   return {
-    x, y, z, direction, rejected, drawn, length_squared: lengthSquared(tries.at(-1)),
-    loop: rejected === 0 ? "runs once" : `runs ${drawn} times`,
-    in_sphere: true, is_first: rejected === 0,
-    tries: tries.map(([x, y, z], i) => ({
-      x, y, z, number: i + 1, point: [x, y, z], square: lengthSquared([x, y, z]),
-      is_taken: i === rejected,
+    x, y, z, length_squared: lengthSquared([x, y, z]), in_sphere: true, direction,
+    loop: is_first ? "runs once" : `runs ${drawn} times`, is_first, drawn, rejected: drawn - 1,
+    tries: tries.map((point, i) => ({
+      point, number: i + 1, x: point[0], y: point[1], z: point[2], square: lengthSquared(point),
+      is_taken: i + 1 === drawn,
     })),
   };
 }
 
 function valuesOfHit(run, { hits, direction: emitted }, at) {
-  const { bounce, surface, face, t, position, stored, scattered, ...hit } = hits[at];
-  const { normal, tangent, bitangent, axis } = face;
-  const arrival = bounce === 0 ? emitted : hits[bounce - 1].direction;
+  const { face, bounce, position, stored, scattered, u1, u2, direction, ...hit } = hits[at];
+  const { normal, bare } = face, arrival = hits[at - 1]?.direction ?? emitted;
   const values = {
-    hit_mesh_object: surface, facet: face.facet, distance: about(t), t, normal,
-    intersection_point: position,
-    is_front: dot(arrival, normal) <= 0, arrival: degrees(-dot(arrival, normal)),
+    ...hit, ...face, hit_mesh_object: hit.surface, intersection_point: position,
+    distance: about(hit.t), is_front: dot(arrival, normal) <= 0,
+    arrival: degrees(-dot(arrival, normal)),
     has_bounced: stored, "path.len()": bounce + 1, "photon_map.push()": stored ? "runs" : "skipped",
     to_light: stored ? scale(arrival, -1) : undefined,
-    hit_primitive: `a triangle of face ${face.facet}`, diffuse_response: hit.diffuse,
-    probability_of_reflection: hit.survival, u: hit.roulette, absorbed: !scattered,
+    hit_primitive: `a triangle of face ${face.facet}`, absorbed: !scattered,
   };
   if (!scattered) return values;
-  const { u1, u2, direction } = hit;
-  const r = Math.sqrt(u1), theta = 2 * Math.PI * u2, z = Math.sqrt(1 - u1);
-  const start = position.map((p, i) => round(p + round(run.offset * normal[i])));
+  const r = Math.sqrt(u1), theta = 2 * Math.PI * u2, z = Math.sqrt(1 - u1), { offset } = run;
+  const start = position.map((p, i) => round(p + round(offset * normal[i])));
   return {
     ...values,
     u1, u2, r, z: round(Math.sqrt(round(1 - u1))), theta: near(theta),
     x: near(r * Math.cos(theta)), y: near(r * Math.sin(theta)), "ray_direction()": direction,
     about_r: about(r), about_z: about(z), turned: `${(u2 * 360).toFixed(1)}°`,
-    way_to_n: degrees(z),
-    parallel: about(Math.abs(normal[0])), is_parallel: isParallel(face), axis, tangent, bitangent,
-    bare: about(face.bare), is_unit: isUnit(face),
-    bare_to_n: degrees(dot(bareWay(hits[at]), normal)), world_space_direction: direction,
+    way_to_n: degrees(z), bare_to_n: degrees(dot(bareWay(hits[at]), normal)),
+    about_bare: about(bare), is_unit: isUnit(face),
+    parallel: about(Math.abs(normal[0])), is_parallel: face.axis[0] !== 1,
+    world_space_direction: direction, bounces_left: run.maxBounces - bounce - 1,
     nearly: `≈ (${direction.map((x) => Number(x.toPrecision(6))).join(", ")})`,
-    bounces_left: run.maxBounces - bounce - 1,
-    ...(run.offset && { start, offset: run.offset, start_error: round(run.offset / 2) }),
+    ...(offset && { start, offset, start_error: round(offset / 2) }),
   };
 }
 
-/** Whether the normal is too close to the x axis, so that another axis builds t. */
-const isParallel = ({ axis }) => axis[0] !== 1;
 /** Whether n × axis is as long as t: to see, not to compute with. */
 const isUnit = ({ bare }) => Math.abs(bare - 1) < 1e-3;
 

@@ -14,9 +14,8 @@ use variants::run::Run;
 #[derive(Debug, Serialize)]
 pub struct PageSurface {
     pub name: String,
-    /// P_r.
-    pub survival: f32,
-    pub diffuse: [f32; 3],
+    pub probability_of_reflection: f32,
+    pub diffuse_response: [f32; 3],
 }
 
 /// A face of a mesh object, with its frame, in world space.
@@ -37,8 +36,8 @@ pub struct PageFace {
 pub fn surfaces(scene: &Scene) -> Vec<PageSurface> {
     let surface = |name: &str, diffuse: Vec3| PageSurface {
         name: name.to_owned(),
-        survival: diffuse.max_element(),
-        diffuse: diffuse.to_array(),
+        probability_of_reflection: diffuse.max_element(),
+        diffuse_response: diffuse.to_array(),
     };
     let objects = scene.mesh_objects().iter();
     objects.map(|object| surface(&object.name, object.material.base_diffuse_reflection())).collect()
@@ -96,14 +95,14 @@ pub fn edges(faces: &[PageFace]) -> Vec<[[f32; 3]; 2]> {
 }
 
 /// The handout's camera, or one that sees all of another scene; then the one with which the page
-/// opens. A camera has the point it turns around, the distance, the direction in radians, and half
-/// the height of its picture at distance 1.
+/// opens. A camera has the point it turns around, the distance, the direction in radians, half the
+/// height of its picture at distance 1, and the size of the scene.
 pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
     let handout = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
     let camera = |target: Vec3, distance: f32, yaw: f32, pitch: f32| {
         json!({
             "target": target.to_array(), "distance": distance, "yaw": yaw, "pitch": pitch,
-            "halfHeight": handout.half_height,
+            "halfHeight": handout.half_height, "size": size,
         })
     };
     if is_handout {

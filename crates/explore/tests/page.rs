@@ -42,10 +42,7 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     );
     browser.click_on("#home");
     // The path and its labels would hide dots.
-    browser.run(
-        "page.view.setLines('path', []); page.view.setMarks([]); \
-         document.getElementById('labels').style.display = 'none'",
-    );
+    browser.run("document.getElementById('over').style.display = 'none'");
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
     let [left, top, right, bottom] = browser.edges("#view").map(|edge| edge.round() as u32);
@@ -192,11 +189,10 @@ fn table_and_filters_show_what_they_say() {
         format!("{},{:03} photons shown: rightWall, bounce 2.", stored / 1000, stored % 1000);
     assert_eq!(shown(), number);
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
-    browser.run("document.getElementById('filters').open = true");
-    browser.click_on("#by-bounce input");
+    browser.click_on("#table thead input");
     let others = total.stored - total.by_bounce[0].stored;
     assert_eq!(shown(), format!("{},{:03} photons shown.", others / 1000, others % 1000));
-    browser.click_on("#by-bounce input");
+    browser.click_on("#table thead input");
     browser.run(
         "for (const [id, value] of [['from', 73], ['to', 73]]) { const field = \
          document.getElementById(id); field.value = value; field.dispatchEvent(new \

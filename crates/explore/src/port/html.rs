@@ -5,21 +5,36 @@ use super::branches::Arm;
 use super::steps::PortStep;
 use super::{FoundFunction, FoundPart, PortSource};
 
-/// The blocks of `words`, one for each step of `source`, with the step's title and code.
+/// The blocks of `words`, one for each step of `source`, with the step's title and code and with
+/// places for values.
 ///
 /// # Errors
-/// The step that has no block, or the place that its block lacks.
+/// The step that has no block, or whose block lacks something.
 pub fn templates(source: &PortSource, words: &str) -> Result<String, String> {
     let template = |(step, parts): &(&PortStep, Vec<FoundPart>)| {
         let start = format!("<template id=\"step-{}\" ", step.name);
         let missing = |what: &str| format!("assets/steps.html: expected '{what}' in '{start}'");
         let block = words.split_once(&start).and_then(|(_, rest)| rest.split_once("</template>"));
         let (block, _) = block.ok_or_else(|| missing("</template>"))?;
-        let (head, rest) = block.split_once("{title}").ok_or_else(|| missing("{title}"))?;
-        let (before, after) = rest.split_once("{code}").ok_or_else(|| missing("{code}"))?;
+        if let Some(what) = ["{title}", "{code}"].into_iter().find(|what| !block.contains(what)) {
+            return Err(missing(what));
+        }
         let figures = parts.iter().map(|part| figure(&source.functions[part.function], part));
-        let (title, figures) = (step.section, figures.collect::<String>());
-        Ok(format!("{start}{head}{title}{before}{figures}{after}</template>\n"))
+        let figures: String = figures.collect();
+        let mut html = start;
+        for (at, text) in block.split(['{', '}']).enumerate() {
+            match text {
+                _ if at % 2 == 0 => html += text,
+                "title" => html += step.section,
+                "code" => html += &figures,
+                name => {
+                    let is_drawn = html.rfind("<svg") > html.rfind("</svg");
+                    let tag = if is_drawn { "tspan" } else { "b" };
+                    html += &format!("<{tag} data-name=\"{name}\"></{tag}>");
+                }
+            }
+        }
+        Ok(html + "</template>\n")
     };
     source.steps.iter().map(template).collect()
 }
