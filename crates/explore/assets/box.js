@@ -1,10 +1,11 @@
 // The page: the box, and the path over it.
 
 function showBox() {
-  const points = run.faces.flatMap(({ triangles, normal, surface }) =>
-    triangles.flat().map((at) => [at, [...run.surfaces[surface].diffuse_response, 1], normal]));
-  view.setLayer("walls", "TRIANGLES",
-    ...[0, 1, 2].map((i) => new Float32Array(points.flatMap((point) => point[i]))));
+  const column = (type, value) => new type(run.faces.flatMap((face) =>
+    face.triangles.flat().flatMap((corner) => value(face, corner))));
+  const color = ({ surface }) => [...scale(run.surfaces[surface].diffuse_response, 255), 255];
+  view.setLayer("walls", "TRIANGLES", column(Float32Array, (_, corner) => corner),
+    column(Uint8Array, color), column(Int8Array, (face) => scale(face.normal, 127)));
   Object.assign(view, { light: run.lights[0], dotSize: run.dotSize });
   orbit(view, (x, y) => openDot(view.pick(x, y)), (x, y) => {
     const dot = view.pick(x, y);
@@ -49,70 +50,66 @@ function showPath() {
   const { step, photon, story: { hits, light, direction, ending } } = page;
   const reached = step.name === "emission" ? 0 : step.bounce + 1;
   const points = [light, ...hits.map(({ position }) => position)];
-  if (ending === "miss")
-    points.push(add(points.at(-1), hits.at(-1)?.direction ?? direction, run.size * 0.4));
-  const lines = points.slice(1).map((b, i) =>
-    ({ kind: i < reached ? "leg" : "leg ahead", line: [points[i], b] }));
-  const marks = hits.map(({ position, stored }, i) =>
-    ({ kind: i < reached ? "mark" : "mark ahead", text: stored ? "●" : "○", at: position }));
-  marks.push(...run.lights.map((at) => ({ kind: "mark light", text: "◆", at })));
+  const way = hits.at(-1)?.direction ?? direction;
+  if (ending === "miss") points.push(add(points.at(-1), way, run.size * 0.4));
+  page.over = [];
+  const put = (kind, text, ...at) => page.over.push({ kind, text, at });
+  points.slice(1).forEach((b, i) => put(i < reached ? "leg" : "leg ahead", "", points[i], b));
   run.movedIndex.forEach((dot, k) => {
-    if (run.dots.photon[dot] === photon)
-      lines.push({ kind: "moved", line: [run.place(dot), run.place(run.stored + k)] });
+    if (run.dotPhoton[dot] === photon) put("moved", "", run.place(dot), run.place(run.stored + k));
   });
   const other = isDivergence() && run.comparison.other;
   if (other) {
-    const from = points[step.name === "stored" ? step.bounce : reached];
-    lines.push({ kind: "extra dash", line: [from, other] });
-    marks.push({ kind: "mark extra", text: "×", at: other });
+    put("extra dash", "", points[step.name === "stored" ? step.bounce : reached], other);
+    put("mark extra", "×", other);
   }
-  lines.push(...linesOf(step.name, page.story, hits[step.bounce]));
-  const label = (text, at, down) => ({ kind: "label", text, at, down });
-  page.over = [
-    ...lines, ...marks, label("light", light, -14),
-    ...lines.filter(({ name }) => name).map(({ name, line }) => label(name, line[1], -6)),
-    ...hits.map(({ stored, bounce, position }) =>
-      label(stored ? `${bounce}` : "0, not stored", position, 14)),
-  ];
+  for (const [kind, from, way] of arrowsOf(step.name, page.story, hits[step.bounce])) {
+    const tip = add(from, way, run.size * 0.13);
+    put(kind, "", from, tip);
+    if (kind.length === 1) put("label", kind, tip);
+  }
+  for (const at of run.lights) put("mark light", "◆", at);
+  put("label", "light", light);
+  for (const { stored, bounce, position } of hits) {
+    put(bounce < reached ? "mark" : "mark ahead", stored ? "●" : "○", position);
+    put("label", stored ? bounce : "0, not stored", position);
+  }
   $("over").innerHTML = page.over.map(({ kind, text }) =>
-    text ? `<text class="${kind}">${text}</text>` : `<path class="${kind}" />`).join("");
+    text === "" ? `<path class="${kind}" />` : `<text class="${kind}">${text}</text>`).join("");
   view.draw();
 }
 
-/** What a step draws at its hit, or at the light. */
-function linesOf(step, { light, direction: emitted }, hit) {
-  const arrow = (from, way, kind, name) =>
-    ({ kind, name, line: [from, add(from, way, run.size * 0.13)] });
-  if (step === "emission") return [arrow(light, emitted, "leg")];
-  if (!hit) return [];
+/** What a step draws at its hit, or at the light: a kind, the start and the way. Those of one letter
+ * have it at their tip. */
+function arrowsOf(step, { light, direction: emitted }, hit) {
+  if (step === "emission") return [["leg", light, emitted]];
+  if (!hit || ["stored", "roulette"].includes(step)) return [];
   const { position, direction, face: { normal, tangent, bitangent } } = hit;
-  const n = arrow(position, normal, "n", "n");
-  if (step === "hit") return [n];
-  if (!["hemisphere", "frame", "ray"].includes(step)) return [];
-  const lines = [n, arrow(position, scale(direction, 1.5), "leg")];
+  const arrows = [["n", position, normal]];
+  if (step !== "hit") arrows.push(["leg", position, scale(direction, 1.5)]);
   // The orange line is longer than the true one, so that it is in sight behind it.
   if (step === "frame")
-    lines.unshift(arrow(position, scale(bareWay(hit), isUnit(hit.face) ? 0 : 1.95), "extra dash"),
-      arrow(position, tangent, "t", "t"), arrow(position, bitangent, "b", "b"));
-  return lines;
+    arrows.unshift(["extra dash", position, scale(bareWay(hit), isUnit(hit.face) ? 0 : 1.95)],
+      ["t", position, tangent], ["b", position, bitangent]);
+  return arrows;
 }
 
 /** Puts everything over the box in its place, each label below those before it that stand there. */
 function placePath() {
   const { clientWidth: width, clientHeight: height } = view.canvas, placed = [];
-  for (const [i, { line, at, down }] of page.over.entries()) {
+  for (const [i, { kind, at }] of page.over.entries()) {
     const node = $("over").children[i];
-    if (line) {
-      node.setAttribute("d", view.outline(line).map(([a, b]) => `M${a}L${b}`).join(""));
+    if (at.length > 1) {
+      node.setAttribute("d", view.outline(at).map(([a, b]) => `M${a}L${b}`).join(""));
       continue;
     }
-    let [left, top] = view.project(at) ?? [-1, -1];
+    let [left, top] = view.project(at[0]) ?? [-1, -1];
     const isOut = left < 0 || top < 0 || left > width || top > height;
     node.style.display = isOut ? "none" : "";
-    if (down && !isOut) {
+    if (kind === "label" && !isOut) {
       const { width: wide, height: high } = node.getBBox();
       left = Math.min(left + 8, width - wide - 2);
-      top += down;
+      top += 13;
       const isCovered = (other) =>
         left < other.left + other.wide && other.left < left + wide &&
         Math.abs(top - other.top) < high;

@@ -8,15 +8,15 @@ async function readColumns(list) {
     Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const bytes = new Uint8Array(await new Response(inflated).arrayBuffer());
-  const types = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array };
+  const types =
+    { i8: Int8Array, u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array };
   let at = 0;
-  const columns = list.map(([name, type, count, planes]) => {
+  return Object.fromEntries(list.map(([name, type, count, planes]) => {
     const raw = new Uint8Array(count * planes);
     for (let plane = 0; plane < planes; plane++)
       for (let i = plane; i < raw.length; i += planes) raw[i] = bytes[at++];
     return [name, new types[type](raw.buffer)];
-  });
-  return Object.fromEntries(columns);
+  }));
 }
 
 /** The random numbers of `photon`: ChaCha with 8 rounds, as in the port's `random.rs`. The numbers
@@ -44,42 +44,22 @@ function* photonRandom(seed, photon) {
   }
 }
 
-/** A run of the reference. Its `dots` are the stored photons, then those that another list moved,
- * then the extra ones of that list. A path of `paths` tells where its numbers begin in the columns
- * of hits, dots and directions. */
-function unpack({ scene, ...meta }, columns) {
-  const run = { ...meta, ...scene, ...columns, paths: [] };
-  const { positions: position, kind, movedIndex, extraPhoton, extraBounce, extraSurface } = run;
-  const count = position.length / 3, firstExtra = count - extraPhoton.length;
-  const stored = firstExtra - movedIndex.length;
-  const photon = new Uint32Array(count), bounce = new Uint16Array(count);
-  const surface = new Uint16Array(count), normal = new Int8Array(3 * count);
-  const normals = run.faces.map((face) => scale(face.normal, 127));
-  let next = { photon: 0, hit: 0, dot: 0, direction: 0 };
-  run.pathHits.forEach((hits, path) => {
-    next.photon += run.pathPhoton[path];
-    run.paths.push({ path, hits, ...next });
-    for (let at = 1; at < hits; at++, next.dot++) {
-      const face = run.hitFace[next.hit + at];
-      [photon[next.dot], bounce[next.dot]] = [next.photon, at];
-      surface[next.dot] = run.faces[face].surface;
-      normal.set(normals[face], 3 * next.dot);
-    }
-    next.hit += hits;
-    next.direction += hits - (run.pathEnding[path] === 0);
-  });
-  const others = [[photon, extraPhoton], [bounce, extraBounce], [surface, extraSurface]];
-  for (const [column, extra] of others) {
-    column.set(movedIndex.map((index) => column[index]), stored);
-    column.set(extra, firstExtra);
+/** Where the path of `photon` begins in the columns of hits, dots and directions, and how many hits
+ * it has; nothing if the page does not have it. */
+function pathOf({ pathPhoton, pathHits, pathEnding }, photon) {
+  const at = { path: 0, photon: pathPhoton[0], hit: 0, dot: 0, direction: 0 };
+  for (; at.photon < photon; at.photon += pathPhoton[++at.path]) {
+    const hits = pathHits[at.path];
+    at.hit += hits;
+    at.dot += Math.max(hits - 1, 0);
+    at.direction += hits - (pathEnding[at.path] === 0);
   }
-  const dots = { count, position, kind, photon, bounce, surface, normal };
-  return { ...run, dots, stored, firstExtra, place: (dot) => vectorOf(position, dot) };
+  return at.photon === photon ? { ...at, hits: pathHits[at.path] } : null;
 }
 
 /** The story of `photon`, as `explain --json` prints it; nothing if the page does not have it. */
 function storyOf(run, photon) {
-  const found = run.paths.find((path) => path.photon === photon);
+  const found = pathOf(run, photon);
   if (!found) return null;
   const { path, hits: count } = found;
   const random = photonRandom(run.seed, photon), rand = () => random.next().value;

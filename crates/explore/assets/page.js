@@ -6,10 +6,6 @@ const make = (tag, properties, ...children) => {
   node.append(...children);
   return node;
 };
-/** `words` for the page, in which no command and no option breaks at its hyphens. */
-const prose = (words) =>
-  words.split(/(--[\w-]+|photon-mapping \w+)/).map((part, i) =>
-    i % 2 ? make("span", { className: "whole" }, part) : part);
 
 /** What is open: a photon, its story and its steps, and what is drawn over the box. Then the timer
  * that plays the steps, and the cell of the table that is lit. */
@@ -24,48 +20,47 @@ const FOUR = ["one ●", "two ■", "three ◆", "four ▲"];
 const WAYS = {
   bounce: () => [FOUR, ["1", "2", "3", "4 or more"].map((at) => `bounce ${at}`), bounceGroup],
   surface: () =>
-    [FOUR, run.surfaces.slice(0, 8).map(({ name }) => name), (dot) => run.dots.surface[dot] % 4],
+    [FOUR, run.surfaces.slice(0, 8).map(({ name }) => name), (dot) => run.dotSurface[dot] % 4],
   red: () => [["red ●"], ["stored photon"], () => 0],
   kind: () => [["gray ●", "missing ○", "moved ◆", "extra ×"], run.comparison.legend,
-    (dot) => run.dots.kind[dot]],
+    (dot) => run.dotKind[dot]],
 };
 
 /** The bounce of a dot, counted from 0, as the table groups them. */
-const bounceGroup = (dot) => clamp(run.dots.bounce[dot], 1, 4) - 1;
+const bounceGroup = (dot) => clamp(run.dotBounce[dot], 1, 4) - 1;
 
-/** Which dots are counted in the cell `button` of the table, whose value names a surface and a
- * bounce; -1 is any. */
+/** Tells of a dot whether the cell `button` of the table counts it. The button's value names a
+ * surface and a bounce; -1 is any. */
 function isIn(button) {
   const [surface, bounce] = button.value.split(" ").map(Number);
-  return (dot) => (surface < 0 || surface === run.dots.surface[dot]) &&
-    (bounce < 0 || bounce === bounceGroup(dot));
+  return (dot) => [-1, run.dotSurface[dot]].includes(surface) &&
+    [-1, bounceGroup(dot)].includes(bounce);
 }
 
-/** Shows the dots that the table and the filters leave, as the user wants them colored. */
+/** Shows the dots that the table and the range leave, as the user wants them colored. */
 function showDots() {
-  const { dots, stored, firstExtra, comparison } = run, way = $("colors").value;
-  const [styles, names, styleOf] = WAYS[way](), [colors, shapes] = [0, 1].map((part) =>
-    styles.map((style) => style.split(" ")[part]));
+  const { dotPosition, dotNormal, dotPhoton, dotSurface, dotKind, stored, movedIndex } = run;
+  const way = $("colors").value, [styles, names, styleOf] = WAYS[way](), count = dotKind.length;
+  const painted = new Uint8Array(4 * count), looks = (page.looks = new Uint8Array(2 * count));
+  const [colors, shapes] = [0, 1].map((part) => styles.map((style) => style.split(" ")[part]));
   const alone = $("table").querySelector("[aria-pressed=true]");
-  const isAlone = alone && isIn(alone), isLit = page.lit && isIn(page.lit);
-  const [bounces, surfaces] = ["thead", "tbody"].map((part) => new Set(
-    [...$("table").querySelectorAll(`${part} input:not(:checked)`)].map(({ value }) => +value)));
+  const isAlone = alone ? isIn(alone) : () => true, isLit = page.lit ? isIn(page.lit) : () => false;
+  const [bounces, surfaces] = ["thead", "tbody"].map((part) =>
+    [...$("table").querySelectorAll(`${part} input:not(:checked)`)].map(({ value }) => +value));
   const from = +$("from").value, to = +($("to").value || (from ? UNTOLD - 1 : UNTOLD));
-  const isShown = (dot) =>
-    !bounces.has(bounceGroup(dot)) && !surfaces.has(dots.surface[dot]) &&
-    isAlone?.(dot) !== false && dots.photon[dot] >= from && dots.photon[dot] <= to;
-  const isLarge = way === "kind" && comparison.areFew;
-  const bytes = colors.map((color) => colorOf(color, isLit ? 0.15 : 1));
-  const [painted, looks] = [new Uint8Array(4 * dots.count), new Uint8Array(2 * dots.count)];
+  const isShown = (dot) => isAlone(dot) && dotPhoton[dot] >= from && dotPhoton[dot] <= to &&
+    !bounces.includes(bounceGroup(dot)) && !surfaces.includes(dotSurface[dot]);
+  const isLarge = way === "kind" && run.comparison.areFew;
+  const [dim, full] = [page.lit ? 0.15 : 1, 1].map((alpha) =>
+    colors.map((color) => colorOf(color, alpha)));
   let shown = 0;
-  for (let dot = 0; dot < (way === "kind" ? dots.count : stored); dot++) {
+  for (let dot = 0; dot < (way === "kind" ? count : stored); dot++) {
     if (!isShown(dot)) continue;
-    const style = styleOf(dot), state = isLit?.(dot) ? 2 : isLarge && dots.kind[dot] ? 3 : 1;
-    painted.set(bytes[style], 4 * dot);
-    if (state === 2) painted[4 * dot + 3] = 255;
+    const style = styleOf(dot), state = isLit(dot) ? 2 : isLarge && dotKind[dot] ? 3 : 1;
+    painted.set((state === 2 ? full : dim)[style], 4 * dot);
     looks.set([SHAPES.indexOf(shapes[style]), state], 2 * dot);
     // A moved photon has two dots.
-    shown += dot < stored || dot >= firstExtra;
+    shown += dot < stored || dot >= stored + movedIndex.length;
   }
   $("shown").textContent =
     `${thousands(shown)} photon${shown === 1 ? "" : "s"} shown${alone ? `: ${alone.title}` : ""}.`;
@@ -76,8 +71,7 @@ function showDots() {
     return make("li", {}, swatch, ` ${name}`);
   }));
   view.alpha = $("walls").checked ? 1 : 0.16;
-  view.setLayer("dots", "POINTS", dots.position, painted, dots.normal, looks);
-  page.looks = looks;
+  view.setLayer("dots", "POINTS", dotPosition, painted, dotNormal, looks);
   showMoved();
 }
 
@@ -87,10 +81,8 @@ function showMoved() {
   const { movedIndex, stored, place } = run, { lit, looks } = page, most = lit ? 1000 : 150;
   const state = (k) => looks[2 * (stored + k) + 1];
   const shown = [...movedIndex.keys()].filter((k) => (lit ? state(k) === 2 : state(k)));
-  const every = Math.ceil(shown.length / most);
-  const lines = shown.filter((k, i) => i % every === 0)
-    .map((k) => [place(movedIndex[k]), place(stored + k)]);
-  setLines("moved", lines, colorOf("moved", lit ? 0.7 : every > 1 ? 0.3 : 1));
+  const lines = shown.slice(0, most).map((k) => [place(movedIndex[k]), place(stored + k)]);
+  setLines("moved", lines, colorOf("moved", lit ? 0.7 : shown.length > most ? 0.3 : 1));
 }
 
 /** Keeps the photons of a cell alone, or all if they are alone already. */
@@ -125,12 +117,12 @@ const ACTIONS = [
 function listen() {
   for (const [id, key, action] of ACTIONS)
     if (id) Object.assign($(id), { onclick: action, ariaKeyShortcuts: key });
-  $("table").onclick = keep;
   for (const kind of ["pointerover", "focusin", "pointerout", "focusout"])
     $("table").addEventListener(kind, ({ target }) => {
       page.lit = kind.endsWith("out") ? null : target.closest("#table button");
       showDots();
     });
+  $("table").onclick = keep;
   $("left").oninput = showDots;
   $("photon").onchange = () => open(+$("photon").value, 0, "emission");
   $("slider").oninput = () => go(+$("slider").value);
@@ -147,21 +139,18 @@ function pressKey(event) {
   const shift = event.shiftKey && key.startsWith("Arrow") ? "Shift+" : "";
   const name = key === " " ? "Space" : key.length === 1 ? key.toUpperCase() : key;
   const found = ACTIONS.find(([, key]) => key === shift + name);
-  if (!found || !page.steps.length) return;
+  if (!found || !page.step) return;
   found[2]();
   event.preventDefault();
 }
 
 async function start() {
-  const meta = JSON.parse($("meta").textContent);
-  run = unpack(meta, await readColumns(meta.sections));
+  const { sections, scene, ...meta } = JSON.parse($("meta").textContent);
+  run = { ...meta, ...scene, ...(await readColumns(sections)) };
+  run.place = (dot) => vectorOf(run.dotPosition, dot);
   view = new View($("view"), placePath);
-  for (const node of document.querySelectorAll(".prose"))
-    node.replaceChildren(...prose(node.textContent));
-  if (run.comparison) {
-    $("colors").prepend(make("option", { value: "kind", selected: true }, "by difference"));
+  if (run.comparison)
     $("comparison").open = window.matchMedia("(min-width: 901px) and (min-height: 501px)").matches;
-  }
   listen();
   if (view.gl) showBox();
   else showPicture();
@@ -170,8 +159,7 @@ async function start() {
   view.drawNow();
   view.finish();
   // For the console and the tests.
-  const firstFrame = performance.now();
-  window.page = Object.assign(page, { run, view, firstFrame, open, go });
+  window.page = Object.assign(page, { run, view, firstFrame: performance.now(), open, go });
   document.body.dataset.ready = "yes";
 }
 start().catch((error) => {

@@ -1,13 +1,14 @@
 // The page: the story of the open photon, step by step, beside the code.
 
 function openDot(dot) {
-  const photon = run.dots.photon[dot];
+  const photon = run.dotPhoton[dot];
   if (photon === UNTOLD) say("This list does not tell the photon of its records.");
-  else if (dot >= 0) open(photon, run.dots.bounce[dot], "stored");
+  else if (dot >= 0) open(photon, run.dotBounce[dot], "stored");
 }
 
-function say(words) {
-  $("no-story").replaceChildren(...prose(words));
+/** Says `words`, and then a command that does not break at its hyphens. */
+function say(words, command = "") {
+  $("no-story").replaceChildren(words, make("span", { className: "whole" }, command));
   $("no-story").hidden = words === "";
 }
 
@@ -20,7 +21,7 @@ function open(photon, bounce, name) {
     if (!story)
       return say(
         `Photon ${thousands(photon)} has no story here: it stores no photon${run.orLeftOut}. ` +
-          `Run photon-mapping explore --photon ${photon} to get it.`);
+          "To get it, run ", `photon-mapping explore --photon ${photon}`);
     Object.assign(page, { photon, story, steps: stepsOf(story) });
     $("slider").max = page.steps.length - 1;
   }
@@ -56,10 +57,9 @@ const goToBounce = (by) => open(page.photon, page.step.bounce + by, page.step.na
 
 /** Opens the next stored photon, or with `by` -1 the one before. */
 function skip(by) {
-  const { paths } = run, { photon, step } = page;
-  const isNext = (path) => path.hits > 1 && (path.photon - photon) * by > 0;
-  const found = by > 0 ? paths.find(isNext) : paths.findLast(isNext);
-  if (found) open(found.photon, step.bounce, step.name);
+  const stored = run.dotPhoton.subarray(0, run.stored), isNext = (x) => (x - page.photon) * by > 0;
+  const photon = by > 0 ? stored.find(isNext) : stored.findLast(isNext);
+  if (photon !== undefined) open(photon, page.step.bounce, page.step.name);
 }
 
 function play(on) {

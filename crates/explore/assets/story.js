@@ -42,7 +42,7 @@ function valuesOfHit(run, { hits, direction: emitted }, at) {
   const { normal, bare } = face, arrival = hits[at - 1]?.direction ?? emitted;
   const values = {
     ...hit, ...face, hit_mesh_object: hit.surface, intersection_point: position,
-    distance: about(hit.t), is_front: dot(arrival, normal) <= 0,
+    is_front: dot(arrival, normal) <= 0,
     arrival: degrees(-dot(arrival, normal)),
     has_bounced: stored, "path.len()": bounce + 1, "photon_map.push()": stored ? "runs" : "skipped",
     to_light: stored ? scale(arrival, -1) : undefined,

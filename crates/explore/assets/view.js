@@ -8,6 +8,8 @@ const unit = (a) => scale(a, 1 / (Math.hypot(...a) || 1));
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 /** What is closer to the camera is not drawn. */
 const NEAREST = 0.01;
+/** Of each point the position, the color, the normal, and the look. */
+const ATTRIBUTES = [[3, "FLOAT"], [4, "UNSIGNED_BYTE"], [3, "BYTE"], [2, "UNSIGNED_BYTE"]];
 /** So many pixels a side are looked at around a click. */
 const PICK = 25;
 
@@ -42,8 +44,8 @@ class View {
     if (gl.getProgramParameter(program, gl.LINK_STATUS)) Object.assign(this, { gl, program });
   }
 
-  /** Makes the layer `name` of TRIANGLES, LINES or POINTS: the position and color of each point,
-   * and perhaps its normal. A dot has a look, too: a shape, then 1 for plain, 2 lit or 3 large. */
+  /** Makes the layer `name` of TRIANGLES, LINES or POINTS from columns, in the order of ATTRIBUTES.
+   * A look is a shape, then 1 for plain, 2 for lit or 3 for large. */
   setLayer(name, mode, ...columns) {
     const { gl } = this;
     if (!gl) return;
@@ -56,8 +58,8 @@ class View {
       if (buffer.array !== array)
         gl.bufferData(gl.ARRAY_BUFFER, (buffer.array = array), gl.DYNAMIC_DRAW);
       gl.enableVertexAttribArray(index);
-      const type = { Float32Array: gl.FLOAT, Int8Array: gl.BYTE, Uint8Array: gl.UNSIGNED_BYTE };
-      gl.vertexAttribPointer(index, [3, 4, 3, 2][index], type[array.constructor.name], true, 0, 0);
+      const [size, type] = ATTRIBUTES[index];
+      gl.vertexAttribPointer(index, size, gl[type], true, 0, 0);
     }
     this.draw();
   }
@@ -89,33 +91,26 @@ class View {
     if (this.part < 1) this.rest = setTimeout(() => this.draw(), 250);
   }
 
-  /** Half the height of the picture at distance 1. A narrow view is higher, to show all of 4:3. */
-  get halfHeight() {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    return this.camera.halfHeight * Math.max(1, 4 / 3 / (width / height));
-  }
-
-  /** World to what the camera sees: to its right, above it, and behind it. */
-  worldToCamera() {
-    const { yaw, pitch, target, distance } = this.camera, degrees = 180 / Math.PI;
-    return new DOMMatrix().translate(0, 0, -distance)
-      .rotateAxisAngle(1, 0, 0, -90 - pitch * degrees).rotateAxisAngle(0, 0, 1, yaw * degrees)
+  /** World to clip space, where the camera is, and half the height of its picture at distance 1. */
+  lens() {
+    const { canvas: { clientWidth: width, clientHeight: height }, camera } = this;
+    const { yaw, pitch, target, distance, size } = camera, degrees = 180 / Math.PI;
+    // A narrow view is higher, to show all of 4:3.
+    const halfHeight = camera.halfHeight * Math.max(1, (4 / 3) * (height / width));
+    const toCamera = new DOMMatrix().translate(0, 0, -distance)
+      .rotate(-90 - pitch * degrees, 0, 0).rotate(0, 0, yaw * degrees)
       .translate(...scale(target, -1));
-  }
-
-  /** World to clip space. */
-  matrix() {
-    const { canvas, halfHeight, camera: { distance, size } } = this;
-    const [near, far] = [distance * 0.02, distance + 20 * size];
-    const across = canvas.clientHeight / canvas.clientWidth / halfHeight;
+    const near = distance * 0.02, far = distance + 20 * size, high = 1 / halfHeight;
     const [depth, shift] = [(far + near) / (near - far), (2 * far * near) / (near - far)];
-    const lens = [across, 0, 0, 0, 0, 1 / halfHeight, 0, 0, 0, 0, depth, -1, 0, 0, shift, 0];
-    return new DOMMatrix(lens).multiply(this.worldToCamera());
+    const lens =
+      [(high * height) / width, 0, 0, 0, 0, high, 0, 0, 0, 0, depth, -1, 0, 0, shift, 0];
+    const matrix = new DOMMatrix(lens).multiply(toCamera);
+    return { matrix, eye: toCamera.inverse().transformPoint(), halfHeight };
   }
 
   /** Where the line through `points` appears: its pieces before the camera, in CSS pixels. */
   outline(points) {
-    const matrix = this.matrix(), { clientWidth: width, clientHeight: height } = this.canvas;
+    const { matrix } = this.lens(), { clientWidth: width, clientHeight: height } = this.canvas;
     const ends = points.map((point) => matrix.transformPoint(new DOMPoint(...point)));
     /** The end `a` of a piece, or where its part before the camera ends. */
     const place = (a, b) => {
@@ -134,14 +129,12 @@ class View {
   }
 
   draw() {
-    this.waiting ??= requestAnimationFrame(() => {
-      this.waiting = null;
-      this.drawNow();
-    });
+    this.waiting ??= requestAnimationFrame(() => this.drawNow());
   }
 
   drawNow() {
     const { gl, canvas, camera } = this;
+    this.waiting = null;
     if (!camera || !canvas.clientWidth) return;
     if (gl && !gl.isContextLost()) {
       const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -166,10 +159,10 @@ class View {
   /** Begins a picture on the color `back`; with `pick` 1 one of dots in colors of their own. */
   begin(back, pick) {
     const { gl, canvas: { width, height, clientWidth }, light, air, alpha } = this;
-    const { x, y, z } = this.worldToCamera().inverse().transformPoint();
+    const { matrix, eye: { x, y, z }, halfHeight } = this.lens();
     const values = {
-      camera: this.matrix().toFloat32Array(), eye: [x, y, z], light, air, alpha, pick,
-      pixels: (this.dotSize * height) / 2 / this.halfHeight, ratio: width / clientWidth,
+      camera: matrix.toFloat32Array(), eye: [x, y, z], light, air, alpha, pick,
+      pixels: (this.dotSize * height) / 2 / halfHeight, ratio: width / clientWidth,
       shift: [1 / width, -1 / height],
     };
     for (const [name, value] of Object.entries(values)) {

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use variants::run::Run;
 use variants::section::Section;
 
-use super::html::{escape, fill};
+use super::html::{escape, fill, prose};
 use super::misreading::ShownMisreading;
 use super::parting::PartingStep;
 use super::step_link;
@@ -173,12 +173,12 @@ impl ListComparison {
         let hidden = if link.is_empty() { "hidden" } else { "" };
         let parts = [
             ("outcome", outcome.to_owned()),
-            ("verdict", escape(&verdict)),
-            ("reason", escape(&reason)),
-            ("advice", escape(&advice)),
+            ("verdict", prose(&verdict)),
+            ("reason", prose(&reason)),
+            ("advice", prose(&advice)),
             ("link", escape(&link)),
             ("hidden", hidden.to_owned()),
-            ("report", escape(&self.report.text())),
+            ("report", prose(&self.report.text())),
         ];
         fill(HEAD, &parts)
     }

@@ -57,6 +57,10 @@ pub fn page(exploration: &Exploration) -> String {
         None => "Stored, then expected, then the difference in standard deviations.".to_owned(),
     };
     let whose = if comparison.is_some() { "the reference's" } else { "the" };
+    let difference = match comparison {
+        Some(_) => "<option value=\"kind\" selected>by difference</option>",
+        None => "",
+    };
     let home = if is_handout { "Handout's camera" } else { "Whole scene" };
     let parts = [
         ("policy", policy),
@@ -68,6 +72,7 @@ pub fn page(exploration: &Exploration) -> String {
         ("comparison", comparison.map(ListComparison::head).unwrap_or_default()),
         ("picture", picture(exploration)),
         ("home", home.to_owned()),
+        ("difference", difference.to_owned()),
         ("cells", cells),
         ("table", table(exploration.table, comparison)),
         ("sides", comparison.map(ListComparison::sides).unwrap_or_default()),

@@ -85,7 +85,7 @@ fn every_misreading_opens_where_it_differs() {
         assert!(lines < 200.0, "{name}: {lines}");
         // What is counted is what is drawn.
         let kinds = browser.run(
-            "[0, 1, 2, 3].map((kind) => page.run.dots.kind.reduce((n, k) => n + (k === kind), 0))",
+            "[0, 1, 2, 3].map((kind) => page.run.dotKind.reduce((n, k) => n + (k === kind), 0))",
         );
         let legend = browser.run("page.run.comparison.legend");
         for (kind, what) in ["matched", "missing"].into_iter().enumerate() {

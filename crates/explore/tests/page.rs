@@ -89,7 +89,7 @@ fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
     // Close to the dot, so that no other is as near to the click.
     browser.run(
-        "const stored = page.run.dots.photon.indexOf(73); page.view.look({ \
+        "const stored = page.run.dotPhoton.indexOf(73); page.view.look({ \
          target: page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: 0 });",
     );
     browser.settle();
@@ -125,7 +125,7 @@ fn a_link_restores_its_step() {
     assert!(browser.text_of("#no-story").contains("explore --photon 74"));
     assert_eq!(
         browser.run("[...document.querySelectorAll('#no-story .whole')].map((n) => n.textContent)"),
-        json!(["photon-mapping explore", "--photon"])
+        json!(["photon-mapping explore --photon 74"])
     );
     browser.run("location.hash = '#photon=99999999999'");
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");
