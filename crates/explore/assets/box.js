@@ -13,15 +13,13 @@ function showBox() {
   });
   view.look(run.firstCamera);
   view.canvas.addEventListener("webglcontextlost", showPicture);
-  readColors();
+  showDots();
 }
 
 /** Shows what stands in for the box where there is no WebGL: the picture, and the path over it. */
 function showPicture() {
   $("trouble").hidden = $("picture").hidden = false;
-  Object.assign(view, { gl: null, camera: run.camera });
-  // Of another scene, the camera of the picture is not known here.
-  $("over").style.display = run.isHandout ? "" : "none";
+  Object.assign(view, { gl: null, camera: run.pictureCamera });
   showDots();
 }
 
@@ -31,12 +29,6 @@ function colorOf(name, alpha = 1) {
   const { color } = getComputedStyle($("over"));
   $("over").style.color = "";
   return [...color.match(/\d+/g).map(Number), 255 * alpha];
-}
-
-function readColors() {
-  view.air = scale(colorOf("air").slice(0, 3), 1 / 255);
-  setLines("edges", run.edges, colorOf("edge"));
-  showDots();
 }
 
 function setLines(name, lines, color) {
@@ -79,8 +71,7 @@ function showPath() {
   view.draw();
 }
 
-/** What a step draws at its hit, or at the light: a kind, the start and the way. Those of one letter
- * have it at their tip. */
+/** The arrows of a step: a kind, the start and the way. Those of one letter have it at their tip. */
 function arrowsOf(step, { light, direction: emitted }, hit) {
   if (step === "emission") return [["leg", light, emitted]];
   if (!hit || ["stored", "roulette"].includes(step)) return [];

@@ -71,6 +71,8 @@ function showDots() {
     return make("li", {}, swatch, ` ${name}`);
   }));
   view.alpha = $("walls").checked ? 1 : 0.16;
+  view.air = scale(colorOf("air").slice(0, 3), 1 / 255);
+  setLines("edges", run.edges, colorOf("edge"));
   view.setLayer("dots", "POINTS", dotPosition, painted, dotNormal, looks);
   showMoved();
 }
@@ -106,7 +108,6 @@ const ACTIONS = [
   ["home", "H", () => view.look(run.camera)],
   ["center", "C", center],
   ["", "+", () => view.move(0, 0, 0.85)],
-  ["", "=", () => view.move(0, 0, 0.85)],
   ["", "-", () => view.move(0, 0, 1.18)],
   ["", "Shift+ArrowLeft", () => view.move(-0.1, 0)],
   ["", "Shift+ArrowRight", () => view.move(0.1, 0)],
@@ -127,7 +128,7 @@ function listen() {
   $("photon").onchange = () => open(+$("photon").value, 0, "emission");
   $("slider").oninput = () => go(+$("slider").value);
   window.onhashchange = followLink;
-  window.matchMedia("(prefers-color-scheme: dark)").onchange = readColors;
+  window.matchMedia("(prefers-color-scheme: dark)").onchange = showDots;
   document.onkeydown = pressKey;
 }
 
@@ -137,7 +138,7 @@ function pressKey(event) {
   const isPressed = key === " " && target.matches("button, summary, input");
   if (isField || isPressed || event.ctrlKey || event.metaKey || event.altKey) return;
   const shift = event.shiftKey && key.startsWith("Arrow") ? "Shift+" : "";
-  const name = key === " " ? "Space" : key.length === 1 ? key.toUpperCase() : key;
+  const name = { " ": "Space", "=": "+" }[key] ?? (key.length > 1 ? key : key.toUpperCase());
   const found = ACTIONS.find(([, key]) => key === shift + name);
   if (!found || !page.step) return;
   found[2]();

@@ -6,14 +6,11 @@ const degrees = (cosine) => `${((Math.acos(clamp(cosine, -1, 1)) * 180) / Math.P
 
 /** The steps of a story in order, by bounce and name. */
 function stepsOf({ hits, ending }) {
-  const steps = [{ bounce: 0, name: "emission" }];
-  for (const { bounce, scattered } of hits) {
-    const names = ["hit", "stored", "roulette"];
-    if (scattered) names.push("hemisphere", "frame", "ray");
-    steps.push(...names.map((name) => ({ bounce, name })));
-  }
-  if (ending) steps.push({ bounce: hits.length, name: ending });
-  return steps;
+  const names = ["hit", "stored", "roulette", "hemisphere", "frame", "ray"];
+  const ofHit = ({ bounce, scattered }) =>
+    names.slice(0, scattered ? 6 : 3).map((name) => ({ bounce, name }));
+  const end = ending ? [{ bounce: hits.length, name: ending }] : [];
+  return [{ bounce: 0, name: "emission" }, ...hits.flatMap(ofHit), ...end];
 }
 
 /** What a step shows: the values that `steps.html` and the code have places for, whether each of

@@ -111,7 +111,6 @@ fn meta(exploration: &Exploration, paths: &Paths) -> String {
     let meta = json!({
         "seed": renderer.seed.to_string(),
         "emitted": renderer.emitted(),
-        "isHandout": exploration.is_handout,
         "maxBounces": renderer.max_photon_bounces,
         "scene": paths,
         "comparison": exploration.comparison.map(ListComparison::meta),

@@ -46,6 +46,7 @@ pub struct Paths {
     camera: Value,
     /// That with which the page opens.
     first_camera: Value,
+    picture_camera: Value,
     /// The scene's longest edge, in world units.
     size: f32,
     /// The edge of the cube in which the picture looks for a photon, in world units.
@@ -70,7 +71,7 @@ impl Paths {
         let size = placement.length_to_world(scene_size(scene));
         let parting = exploration.comparison.and_then(ListComparison::parting);
         let lights = scene.lights().iter();
-        let [camera, first_camera] = cameras(exploration.is_handout, &faces, size);
+        let [camera, first_camera, picture_camera] = cameras(exploration.is_handout, &faces, size);
         Self {
             columns,
             stored,
@@ -81,6 +82,7 @@ impl Paths {
             lights: lights.map(|light| placement.to_world(light.position).to_array()).collect(),
             camera,
             first_camera,
+            picture_camera,
             faces,
             size,
             dot_size: placement.length_to_world(2.0 * PHOTON_DOT_RADIUS),

@@ -94,10 +94,10 @@ pub fn edges(faces: &[PageFace]) -> Vec<[[f32; 3]; 2]> {
     faces.iter().flat_map(outline).collect()
 }
 
-/// The handout's camera, or one that sees all of another scene; then the one with which the page
-/// opens. A camera has the point it turns around, the distance, the direction in radians, half the
-/// height of its picture at distance 1, and the size of the scene.
-pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
+/// The camera of the button, that with which the page opens, and that of the picture: the handout's.
+/// A camera has the point it turns around, the distance, the direction in radians, half the height of
+/// its picture at distance 1, and the size of the scene.
+pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 3] {
     let handout = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
     let camera = |target: Vec3, distance: f32, yaw: f32, pitch: f32| {
         json!({
@@ -105,13 +105,14 @@ pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
             "halfHeight": handout.half_height, "size": size,
         })
     };
+    // It turns around the point before it that is nearest to the middle of the box.
+    let distance = -handout.position.dot(handout.forward);
+    let target = handout.position + distance * handout.forward;
+    let picture = camera(target, distance, 0.0, 0.0);
     if is_handout {
-        // It turns around the point before it that is nearest to the middle of the box.
-        let distance = -handout.position.dot(handout.forward);
-        let target = handout.position + distance * handout.forward;
         // From a little farther off, the light is in sight.
         let first = camera(target + 0.2 * Vec3::Z, 1.3 * distance, 0.3, -0.16);
-        return [camera(target, distance, 0.0, 0.0), first];
+        return [picture.clone(), first, picture];
     }
     let corners = || {
         let corners = faces.iter().flat_map(|face| face.triangles.as_flattened());
@@ -120,5 +121,5 @@ pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
     let low = corners().fold(Vec3::INFINITY, Vec3::min);
     let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
     let whole = camera((low + high) / 2.0, 2.8 * size, 0.5, -0.35);
-    [whole.clone(), whole]
+    [whole.clone(), whole, picture]
 }

@@ -137,7 +137,7 @@ fn a_submission_shows_where_it_parts() {
     let moved = &reference.records[10];
     let [row, column] = [moved.surface + 1, moved.bounce.min(4) + 1];
     let alpha = || {
-        let tenths = "Math.round(page.view.layers.moved.buffers[1].array[3] / 25.5)";
+        let tenths = "Math.round(page.view.layers.moved.columns[1][3] / 25.5)";
         float(&browser.run(tenths))
     };
     browser.press("n");

@@ -5,36 +5,30 @@ use super::branches::Arm;
 use super::steps::PortStep;
 use super::{FoundFunction, FoundPart, PortSource};
 
-/// The blocks of `words`, one for each step of `source`, with the step's title and code and with
-/// places for values.
+/// The blocks of `words`, one for each step of `source`: with the step's title, with places for the
+/// values named in braces, and then with its code.
 ///
 /// # Errors
-/// The step that has no block, or whose block lacks something.
+/// The step that has no block, or whose block lacks its title.
 pub fn templates(source: &PortSource, words: &str) -> Result<String, String> {
     let template = |(step, parts): &(&PortStep, Vec<FoundPart>)| {
         let start = format!("<template id=\"step-{}\" ", step.name);
         let missing = |what: &str| format!("assets/steps.html: expected '{what}' in '{start}'");
         let block = words.split_once(&start).and_then(|(_, rest)| rest.split_once("</template>"));
         let (block, _) = block.ok_or_else(|| missing("</template>"))?;
-        if let Some(what) = ["{title}", "{code}"].into_iter().find(|what| !block.contains(what)) {
-            return Err(missing(what));
-        }
+        let (head, words) = block.split_once("{title}").ok_or_else(|| missing("{title}"))?;
         let figures = parts.iter().map(|part| figure(&source.functions[part.function], part));
-        let figures: String = figures.collect();
-        let mut html = start;
-        for (at, text) in block.split(['{', '}']).enumerate() {
-            match text {
-                _ if at % 2 == 0 => html += text,
-                "title" => html += step.section,
-                "code" => html += &figures,
-                name => {
-                    let is_drawn = html.rfind("<svg") > html.rfind("</svg");
-                    let tag = if is_drawn { "tspan" } else { "b" };
-                    html += &format!("<{tag} data-name=\"{name}\"></{tag}>");
-                }
+        let mut html = format!("{start}{head}{}", step.section);
+        for (at, text) in words.split(['{', '}']).enumerate() {
+            if at % 2 == 0 {
+                html += text;
+                continue;
             }
+            let is_drawn = html.rfind("<svg") > html.rfind("</svg");
+            let tag = if is_drawn { "tspan" } else { "b" };
+            html += &format!("<{tag} data-name=\"{text}\"></{tag}>");
         }
-        Ok(html + "</template>\n")
+        Ok(html + &figures.collect::<String>() + "</template>\n")
     };
     source.steps.iter().map(template).collect()
 }
