@@ -1,18 +1,12 @@
 // The page: the box, and the path over it.
 
 function showBox() {
-  const column = (type, value) => new type(run.faces.flatMap((face) =>
-    face.triangles.flat().flatMap((corner) => value(face, corner))));
-  const color = ({ surface }) => [...scale(run.surfaces[surface].diffuse_response, 255), 255];
-  view.setLayer("walls", "TRIANGLES", column(Float32Array, (_, corner) => corner),
-    column(Uint8Array, color), column(Int8Array, (face) => scale(face.normal, 127)));
-  Object.assign(view, { light: run.lights[0], dotSize: run.dotSize });
-  orbit(view, (x, y) => openDot(view.pick(x, y)), (x, y) => {
-    const dot = view.pick(x, y);
-    if (dot >= 0) view.look({ target: run.place(dot) });
-  });
-  view.look(run.firstCamera);
+  const { wallPosition, wallColor, wallNormal, lights, dotSize, firstCamera } = run;
+  view.setLayer("walls", "TRIANGLES", wallPosition, wallColor, wallNormal);
+  Object.assign(view, { light: lights[0], dotSize });
+  view.look(firstCamera);
   view.canvas.addEventListener("webglcontextlost", showPicture);
+  orbit();
   showDots();
 }
 
@@ -31,10 +25,9 @@ function colorOf(name, alpha = 1) {
   return [...color.match(/\d+/g).map(Number), 255 * alpha];
 }
 
-function setLines(name, lines, color) {
-  const points = lines.flat();
-  view.setLayer(name, "LINES", new Float32Array(points.flat()),
-    new Uint8Array(points.flatMap(() => color)));
+function setLines(name, ends, color) {
+  const colors = Uint8Array.from({ length: (4 * ends.length) / 3 }, (_, i) => color[i % 4]);
+  view.setLayer(name, "LINES", ends, colors);
 }
 
 /** Draws the path over the box: lines and texts, each of a kind that the style sheet knows. */
@@ -71,7 +64,7 @@ function showPath() {
   view.draw();
 }
 
-/** The arrows of a step: a kind, the start and the way. Those of one letter have it at their tip. */
+/** The arrows of a step: kind, start and way. Those of one letter have it at their tip. */
 function arrowsOf(step, { light, direction: emitted }, hit) {
   if (step === "emission") return [["leg", light, emitted]];
   if (!hit || ["stored", "roulette"].includes(step)) return [];
@@ -116,4 +109,40 @@ function center() {
   const { step: { name, bounce }, story: { light, hits } } = page;
   const hit = name === "emission" ? null : hits[Math.min(bounce, hits.length - 1)];
   view.look({ target: hit?.position ?? light, distance: run.size * 0.9 });
+}
+
+/** Lets pointers and the wheel turn the box. A click opens a dot, and a double-click centers it. */
+function orbit() {
+  const { canvas } = view;
+  /** The last place of each finger, or of the mouse. */
+  const fingers = new Map();
+  let moved = 0;
+  const spread = () => {
+    const [a, b] = fingers.values();
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
+  canvas.onpointerdown = ({ pointerId, x, y }) => {
+    canvas.setPointerCapture(pointerId);
+    if (fingers.size === 0) moved = 0;
+    fingers.set(pointerId, { x, y });
+  };
+  canvas.onpointermove = ({ pointerId, x, y }) => {
+    const last = fingers.get(pointerId);
+    if (!last) return;
+    const before = fingers.size > 1 && spread();
+    fingers.set(pointerId, { x, y });
+    moved += Math.abs(x - last.x) + Math.abs(y - last.y);
+    if (before) view.move(0, 0, before / spread());
+    else view.move((x - last.x) * 0.006, (y - last.y) * 0.006);
+  };
+  canvas.onpointerup = canvas.onpointercancel = ({ pointerId }) => fingers.delete(pointerId);
+  canvas.onclick = ({ offsetX, offsetY }) => moved > 6 || openDot(view.pick(offsetX, offsetY));
+  canvas.ondblclick = ({ offsetX, offsetY }) => {
+    const dot = view.pick(offsetX, offsetY);
+    if (dot >= 0) view.look({ target: run.place(dot) });
+  };
+  canvas.onwheel = (event) => {
+    event.preventDefault();
+    view.move(0, 0, Math.exp(event.deltaY * 0.0012));
+  };
 }

@@ -7,9 +7,9 @@ const make = (tag, properties, ...children) => {
   return node;
 };
 
-/** What is open: a photon, its story and its steps, and what is drawn over the box. Then the timer
- * that plays the steps, and the cell of the table that is lit. */
-const page = { steps: [], over: [], timer: null, lit: null };
+/** What is open: a photon, its story and steps, what is drawn over the box, and the timer that plays
+ * the steps. */
+const page = { steps: [], over: [], timer: null };
 let run, view;
 
 /** The photon of a dot whose list does not tell it. */
@@ -44,14 +44,15 @@ function showDots() {
   const painted = new Uint8Array(4 * count), looks = (page.looks = new Uint8Array(2 * count));
   const [colors, shapes] = [0, 1].map((part) => styles.map((style) => style.split(" ")[part]));
   const alone = $("table").querySelector("[aria-pressed=true]");
-  const isAlone = alone ? isIn(alone) : () => true, isLit = page.lit ? isIn(page.lit) : () => false;
+  const lit = (page.lit = $("table").querySelector("button:is(:hover, :focus-visible)"));
+  const isAlone = alone ? isIn(alone) : () => true, isLit = lit ? isIn(lit) : () => false;
   const [bounces, surfaces] = ["thead", "tbody"].map((part) =>
     [...$("table").querySelectorAll(`${part} input:not(:checked)`)].map(({ value }) => +value));
   const from = +$("from").value, to = +($("to").value || (from ? UNTOLD - 1 : UNTOLD));
   const isShown = (dot) => isAlone(dot) && dotPhoton[dot] >= from && dotPhoton[dot] <= to &&
     !bounces.includes(bounceGroup(dot)) && !surfaces.includes(dotSurface[dot]);
   const isLarge = way === "kind" && run.comparison.areFew;
-  const [dim, full] = [page.lit ? 0.15 : 1, 1].map((alpha) =>
+  const [dim, full] = [lit ? 0.15 : 1, 1].map((alpha) =>
     colors.map((color) => colorOf(color, alpha)));
   let shown = 0;
   for (let dot = 0; dot < (way === "kind" ? count : stored); dot++) {
@@ -72,7 +73,7 @@ function showDots() {
   }));
   view.alpha = $("walls").checked ? 1 : 0.16;
   view.air = scale(colorOf("air").slice(0, 3), 1 / 255);
-  setLines("edges", run.edges, colorOf("edge"));
+  setLines("edges", run.edgeEnds, colorOf("edge"));
   view.setLayer("dots", "POINTS", dotPosition, painted, dotNormal, looks);
   showMoved();
 }
@@ -83,8 +84,9 @@ function showMoved() {
   const { movedIndex, stored, place } = run, { lit, looks } = page, most = lit ? 1000 : 150;
   const state = (k) => looks[2 * (stored + k) + 1];
   const shown = [...movedIndex.keys()].filter((k) => (lit ? state(k) === 2 : state(k)));
-  const lines = shown.slice(0, most).map((k) => [place(movedIndex[k]), place(stored + k)]);
-  setLines("moved", lines, colorOf("moved", lit ? 0.7 : shown.length > most ? 0.3 : 1));
+  const ends = shown.slice(0, most).flatMap((k) => [...place(movedIndex[k]), ...place(stored + k)]);
+  const alpha = lit ? 0.7 : shown.length > most ? 0.3 : 1;
+  setLines("moved", new Float32Array(ends), colorOf("moved", alpha));
 }
 
 /** Keeps the photons of a cell alone, or all if they are alone already. */
@@ -118,11 +120,8 @@ const ACTIONS = [
 function listen() {
   for (const [id, key, action] of ACTIONS)
     if (id) Object.assign($(id), { onclick: action, ariaKeyShortcuts: key });
-  for (const kind of ["pointerover", "focusin", "pointerout", "focusout"])
-    $("table").addEventListener(kind, ({ target }) => {
-      page.lit = kind.endsWith("out") ? null : target.closest("#table button");
-      showDots();
-    });
+  for (const kind of ["mouseover", "focusin", "mouseout", "focusout"])
+    $("table").addEventListener(kind, showDots);
   $("table").onclick = keep;
   $("left").oninput = showDots;
   $("photon").onchange = () => open(+$("photon").value, 0, "emission");

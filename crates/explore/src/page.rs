@@ -25,7 +25,6 @@ const SCRIPT: &str = concat!(
     include_str!("../assets/data.js"),
     include_str!("../assets/view.js"),
     include_str!("../assets/shaders.js"),
-    include_str!("../assets/orbit.js"),
     include_str!("../assets/story.js"),
     include_str!("../assets/box.js"),
     include_str!("../assets/panel.js"),

@@ -40,8 +40,6 @@ pub struct Paths {
     start: Option<(u64, usize, &'static str)>,
     surfaces: Vec<PageSurface>,
     faces: Vec<PageFace>,
-    /// The outlines of the faces.
-    edges: Vec<[[f32; 3]; 2]>,
     lights: Vec<[f32; 3]>,
     camera: Value,
     /// That with which the page opens.
@@ -60,11 +58,12 @@ impl Paths {
     pub fn new(exploration: &Exploration) -> Self {
         let run = exploration.run;
         let (scene, placement) = (run.scene(), &run.placement);
-        let faces = faces(run);
+        let (surfaces, faces) = (surfaces(scene), faces(run));
         let thinned = thin(exploration.records, MOST_STORED);
         let records = thinned.as_deref().unwrap_or(exploration.records);
         let stories = stories(exploration, records);
         let mut columns = PackedColumns::default();
+        add_walls(&mut columns, &surfaces, &faces);
         add_paths(&mut columns, &stories, &faces, run);
         let stored = add_dots(&mut columns, &stories, exploration);
         let first = records.first().map(|record| u64::from(record.photon));
@@ -77,8 +76,7 @@ impl Paths {
             stored,
             thinned: thinned.as_ref().map(|kept| kept.len() as u64),
             start: parting.or_else(|| Some((exploration.photon.or(first)?, 0, "emission"))),
-            surfaces: surfaces(scene),
-            edges: edges(&faces),
+            surfaces,
             lights: lights.map(|light| placement.to_world(light.position).to_array()).collect(),
             camera,
             first_camera,
@@ -137,6 +135,23 @@ fn stored_places(stories: &[Story], records: &[PhotonRecord]) -> Vec<Option<u32>
         stored.next_if(|(other, _)| *other == key).map(|(_, place)| place)
     });
     places.collect()
+}
+
+/// Adds the triangles of the walls, and the outlines of the faces.
+fn add_walls(columns: &mut PackedColumns, surfaces: &[PageSurface], faces: &[PageFace]) {
+    let corners = || {
+        faces.iter().flat_map(|face| {
+            face.triangles.as_flattened().iter().map(move |corner| (face, *corner))
+        })
+    };
+    columns.vectors("wallPosition", &corners().map(|(_, corner)| corner).collect::<Vec<_>>());
+    columns.normals("wallNormal", &corners().map(|(face, _)| face.normal).collect::<Vec<_>>());
+    let colors = corners().flat_map(|(face, _)| {
+        let [r, g, b] = surfaces[face.surface].diffuse_response.map(|x| (x * 255.0) as u8);
+        [r, g, b, 255]
+    });
+    columns.bytes("wallColor", &colors.collect::<Vec<_>>());
+    columns.vectors("edgeEnds", edges(faces).as_flattened());
 }
 
 fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace], run: &Run) {

@@ -30,6 +30,7 @@ pub struct PageFace {
     pub axis: [f32; 3],
     /// The length of n x axis.
     pub bare: f32,
+    #[serde(skip)]
     pub triangles: Vec<[[f32; 3]; 3]>,
 }
 
