@@ -1,108 +1,148 @@
-// The page: the box, and the path in it.
+// The page: the box, and the path over it.
 
 function showBox() {
-  const column = (value) =>
-    [new Float32Array(run.faces.flatMap((face) =>
-      face.triangles.flat().flatMap((corner) => value(face, corner)))), 3];
-  view.setLayer("surfaces", "surfaces", [
-    column((_, corner) => corner),
-    column((face) => face.normal),
-    column((face) => run.surfaces[face.surface].diffuse),
-  ]);
-  view.light = run.lights[0];
-  view.dotSize = run.dotSize;
-  orbit(view, (x, y) => openDot(view.pick(x, y)), (x, y) => {
-    const dot = view.pick(x, y);
-    if (dot >= 0) view.look({ target: run.place(dot) });
-  });
-  view.look({ ...run.firstCamera, size: run.size });
-  readColors();
-  view.canvas.addEventListener("webglcontextlost", () => {
-    view = null;
-    showPicture();
-  });
+  const { wallPosition, wallColor, wallNormal, lights, dotSize, firstCamera } = run;
+  view.setLayer("walls", "TRIANGLES", wallPosition, wallColor, wallNormal);
+  Object.assign(view, { light: lights[0], dotSize });
+  view.look(firstCamera);
+  view.canvas.addEventListener("webglcontextlost", showPicture);
+  orbit();
+  showDots();
 }
 
-/** What stands in for the box where there is no WebGL. */
+/** Shows what stands in for the box where there is no WebGL: the picture, and the path over it. */
 function showPicture() {
   $("trouble").hidden = $("picture").hidden = false;
-  $("view").hidden = true;
+  Object.assign(view, { gl: null, camera: run.pictureCamera });
   showDots();
 }
 
-function readColors() {
-  if (!view) return;
-  const probe = $("labels");
-  const color = (name) => {
-    probe.style.color = `var(--${name})`;
-    return getComputedStyle(probe).color.match(/\d+/g).map((byte) => byte / 255);
-  };
-  Object.assign(view, { palette: COLORS.map(color), air: color("air") });
-  probe.style.color = "";
-  view.setLines("edges", run.edges.map(([a, b]) => ({ a, b, color: "edge", width: 1 })));
-  showDots();
-  showStep();
+/** The four bytes of a color of the style sheet. */
+function colorOf(name, alpha = 1) {
+  $("over").style.color = `var(--${name})`;
+  const { color } = getComputedStyle($("over"));
+  $("over").style.color = "";
+  return [...color.match(/\d+/g).map(Number), 255 * alpha];
 }
 
-function drawPath(step) {
-  if (!view) return;
-  const { hits, light, direction, ending } = page.story, { comparison, size } = run;
-  const isEmission = step.name === "emission", reached = isEmission ? -1 : step.bounce;
-  const points = [light, ...hits.map((hit) => hit.position)];
-  const lines = [];
-  // What is still to come is thin and dashed.
-  const leg = (a, b, isReached) =>
-    lines.push({ a, b, color: "text", ...(isReached ? { width: 3 } : { dash: 7, alpha: 0.6 }) });
-  points.slice(1).forEach((b, i) => leg(points[i], b, i <= reached));
-  if (ending === "left_the_scene") {
-    const way = hits.at(-1)?.direction ?? direction;
-    leg(points.at(-1), add(points.at(-1), way, size * 0.4), reached >= hits.length);
-  }
-  if (isEmission) leg(light, add(light, direction, size * 0.2), true);
-  const marks = hits.map(({ position: at, stored }, i) =>
-    ({ at, color: i <= reached ? "text" : "gray", shape: stored ? "circle" : "ring" }));
-  const other = isDivergence(step) && comparison.other;
+function setLines(name, ends, color) {
+  const colors = Uint8Array.from({ length: (4 * ends.length) / 3 }, (_, i) => color[i % 4]);
+  view.setLayer(name, "LINES", ends, colors);
+}
+
+/** Draws the path over the box: lines and texts, each of a kind that the style sheet knows. */
+function showPath() {
+  const { step, photon, story: { hits, light, direction, ending } } = page;
+  const reached = step.name === "emission" ? 0 : step.bounce + 1;
+  const points = [light, ...hits.map(({ position }) => position)];
+  const way = hits.at(-1)?.direction ?? direction;
+  if (ending === "miss") points.push(add(points.at(-1), way, run.size * 0.4));
+  page.over = [];
+  const put = (kind, text, ...at) => page.over.push({ kind, text, at });
+  points.slice(1).forEach((b, i) => put(i < reached ? "leg" : "leg ahead", "", points[i], b));
+  run.movedIndex.forEach((dot, k) => {
+    if (run.dotPhoton[dot] === photon) put("moved", "", run.place(dot), run.place(run.stored + k));
+  });
+  const other = isDivergence() && run.comparison.other;
   if (other) {
-    const from = points[step.bounce + (isEmission || step.name === "stored" ? 0 : 1)];
-    lines.push({ a: from, b: other, color: "extra", width: 3, dash: 9 });
-    marks.push({ at: other, color: "extra", shape: "cross" });
+    put("extra dash", "", points[step.name === "stored" ? step.bounce : reached], other);
+    put("mark extra", "×", other);
   }
-  marks.push(...run.lights.map((at) => ({ at, color: "light", shape: "diamond" })));
-  lines.push(...(step.lines ?? []));
-  view.setLines("path", lines);
-  view.setMarks(marks);
-  const label = (words, point, down) => Object.assign(make("span", {}, words), { point, down });
-  $("labels").replaceChildren(
-    label("light", light, -20),
-    ...lines.filter(({ name }) => name).map(({ name, b }) => label(name, b, -12)),
-    ...hits.map(({ stored, bounce, position }) =>
-      label(stored ? String(bounce) : "0, not stored", position, 6)));
-  placeLabels();
+  for (const [kind, from, way] of arrowsOf(step.name, page.story, hits[step.bounce])) {
+    const tip = add(from, way, run.size * 0.13);
+    put(kind, "", from, tip);
+    if (kind.length === 1) put("label", kind, tip);
+  }
+  for (const at of run.lights) put("mark light", "◆", at);
+  put("label", "light", light);
+  for (const { stored, bounce, position } of hits) {
+    put(bounce < reached ? "mark" : "mark ahead", stored ? "●" : "○", position);
+    put("label", stored ? bounce : "0, not stored", position);
+  }
+  $("over").innerHTML = page.over.map(({ kind, text }) =>
+    text === "" ? `<path class="${kind}" />` : `<text class="${kind}">${text}</text>`).join("");
+  view.draw();
 }
 
-/** Puts each label at its point, below those before it that stand there. */
-function placeLabels() {
-  const { clientWidth: width, clientHeight: height } = $("view");
-  const placed = [];
-  for (const label of $("labels").children) {
-    const [x, y] = view?.project(label.point) ?? [-1, -1];
-    label.hidden = x < 0 || y < 0 || x > width || y > height;
-    if (label.hidden) continue;
-    const [wide, high] = [label.offsetWidth, label.offsetHeight];
-    const left = Math.min(x + 8, width - wide - 2);
-    let top = y + label.down;
-    const isCovered = (other) =>
-      left < other.left + other.wide && other.left < left + wide &&
-      Math.abs(top - other.top) < high;
-    for (let other; (other = placed.find(isCovered)); ) top = other.top + high + 1;
-    placed.push({ left, top, wide });
-    label.style.transform = `translate(${left}px, ${top}px)`;
+/** The arrows of a step: kind, start and way. Those of one letter have it at their tip. */
+function arrowsOf(step, { light, direction: emitted }, hit) {
+  if (step === "emission") return [["leg", light, emitted]];
+  if (!hit || ["stored", "roulette"].includes(step)) return [];
+  const { position, direction, face: { normal, tangent, bitangent } } = hit;
+  const arrows = [["n", position, normal]];
+  if (step !== "hit") arrows.push(["leg", position, scale(direction, 1.5)]);
+  // The orange line is longer than the true one, so that it is in sight behind it.
+  if (step === "frame")
+    arrows.unshift(["extra dash", position, scale(bareWay(hit), isUnit(hit.face) ? 0 : 1.95)],
+      ["t", position, tangent], ["b", position, bitangent]);
+  return arrows;
+}
+
+/** Puts everything over the box in its place, each label below those before it that stand there. */
+function placePath() {
+  const { clientWidth: width, clientHeight: height } = view.canvas, placed = [];
+  for (const [i, { kind, at }] of page.over.entries()) {
+    const node = $("over").children[i];
+    if (at.length > 1) {
+      node.setAttribute("d", view.outline(at).map(([a, b]) => `M${a}L${b}`).join(""));
+      continue;
+    }
+    let [left, top] = view.project(at[0]) ?? [-1, -1];
+    const isOut = left < 0 || top < 0 || left > width || top > height;
+    node.style.display = isOut ? "none" : "";
+    if (kind === "label" && !isOut) {
+      const { width: wide, height: high } = node.getBBox();
+      left = Math.min(left + 8, width - wide - 2);
+      top += 13;
+      const isCovered = (other) =>
+        left < other.left + other.wide && other.left < left + wide &&
+        Math.abs(top - other.top) < high;
+      for (let other; (other = placed.find(isCovered)); ) top = other.top + high + 1;
+      placed.push({ left, top, wide });
+    }
+    node.setAttribute("transform", `translate(${left} ${top})`);
   }
 }
 
 /** Brings the open photon's hit to the middle. */
 function center() {
-  const { light, hits } = page.story, { name, bounce } = page.steps[page.at];
+  const { step: { name, bounce }, story: { light, hits } } = page;
   const hit = name === "emission" ? null : hits[Math.min(bounce, hits.length - 1)];
-  view?.look({ target: hit?.position ?? light, distance: run.size * 0.9 });
+  view.look({ target: hit?.position ?? light, distance: run.size * 0.9 });
+}
+
+/** Lets pointers and the wheel turn the box. A click opens a dot, and a double-click centers it. */
+function orbit() {
+  const { canvas } = view;
+  /** The last place of each finger, or of the mouse. */
+  const fingers = new Map();
+  let moved = 0;
+  const spread = () => {
+    const [a, b] = fingers.values();
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
+  canvas.onpointerdown = ({ pointerId, x, y }) => {
+    canvas.setPointerCapture(pointerId);
+    if (fingers.size === 0) moved = 0;
+    fingers.set(pointerId, { x, y });
+  };
+  canvas.onpointermove = ({ pointerId, x, y }) => {
+    const last = fingers.get(pointerId);
+    if (!last) return;
+    const before = fingers.size > 1 && spread();
+    fingers.set(pointerId, { x, y });
+    moved += Math.abs(x - last.x) + Math.abs(y - last.y);
+    if (before) view.move(0, 0, before / spread());
+    else view.move((x - last.x) * 0.006, (y - last.y) * 0.006);
+  };
+  canvas.onpointerup = canvas.onpointercancel = ({ pointerId }) => fingers.delete(pointerId);
+  canvas.onclick = ({ offsetX, offsetY }) => moved > 6 || openDot(view.pick(offsetX, offsetY));
+  canvas.ondblclick = ({ offsetX, offsetY }) => {
+    const dot = view.pick(offsetX, offsetY);
+    if (dot >= 0) view.look({ target: run.place(dot) });
+  };
+  canvas.onwheel = (event) => {
+    event.preventDefault();
+    view.move(0, 0, Math.exp(event.deltaY * 0.0012));
+  };
 }

@@ -1,14 +1,14 @@
 // The page: the story of the open photon, step by step, beside the code.
 
 function openDot(dot) {
-  if (dot < 0) return;
-  const photon = run.dots.photon[dot];
+  const photon = run.dotPhoton[dot];
   if (photon === UNTOLD) say("This list does not tell the photon of its records.");
-  else open(photon, run.dots.bounce[dot], "stored");
+  else if (dot >= 0) open(photon, run.dotBounce[dot], "stored");
 }
 
-function say(words) {
-  $("no-story").replaceChildren(...prose(words));
+/** Says `words`, and then a command that does not break at its hyphens. */
+function say(words, command = "") {
+  $("no-story").replaceChildren(words, make("span", { className: "whole" }, command));
   $("no-story").hidden = words === "";
 }
 
@@ -21,21 +21,29 @@ function open(photon, bounce, name) {
     if (!story)
       return say(
         `Photon ${thousands(photon)} has no story here: it stores no photon${run.orLeftOut}. ` +
-          `Run photon-mapping explore --photon ${photon} to get it.`);
-    Object.assign(page, { photon, story, steps: stepsOf(run, story) });
+          "To get it, run ", `photon-mapping explore --photon ${photon}`);
+    Object.assign(page, { photon, story, steps: stepsOf(story) });
     $("slider").max = page.steps.length - 1;
-    if (run.comparison) showDots();
   }
   say("");
   const exact = page.steps.findIndex((step) => step.bounce === bounce && step.name === name);
-  const near = page.steps.findLastIndex((step) => step.bounce <= bounce);
-  go(exact >= 0 ? exact : near);
+  go(exact >= 0 ? exact : page.steps.findLastIndex((step) => step.bounce <= bounce));
 }
 
+const linkTo = (photon, bounce, name) => `#photon=${photon}&bounce=${bounce}&step=${name}`;
+
+/** Opens what the address names, if it names anything. */
+function followLink() {
+  const link = new URLSearchParams(location.hash.slice(1)), photon = link.get("photon");
+  if (location.hash === page.link || !/^\d+$/.test(photon)) return;
+  open(+photon, +link.get("bounce"), link.get("step") ?? "emission");
+}
+
+/** Goes to the step at the place `at`. */
 function go(at) {
   page.at = clamp(at, 0, page.steps.length - 1);
-  const { bounce, name } = page.steps[page.at];
-  page.link = `#photon=${page.photon}&bounce=${bounce}&step=${name}`;
+  const step = (page.step = page.steps[page.at]);
+  page.link = linkTo(page.photon, step.bounce, step.name);
   // Browsers refuse more than a few changes of the address a second.
   page.address ??= setTimeout(() => {
     page.address = null;
@@ -44,27 +52,14 @@ function go(at) {
   showStep();
 }
 
-/** Opens what the address names, if it names anything. */
-function followLink() {
-  const link = new URLSearchParams(location.hash.slice(1));
-  const photon = link.get("photon");
-  if (location.hash === page.link || !/^\d+$/.test(photon)) return;
-  open(Number(photon), Number(link.get("bounce")), link.get("step") ?? "emission");
-}
+/** Goes to the same step of another bounce, or as near to it as the path goes. */
+const goToBounce = (by) => open(page.photon, page.step.bounce + by, page.step.name);
 
 /** Opens the next stored photon, or with `by` -1 the one before. */
 function skip(by) {
-  const { bounce, name } = page.steps[page.at];
-  const stored = run.dots.photon.subarray(0, run.stored);
-  const photon = by > 0
-    ? stored.find((photon) => photon > page.photon)
-    : stored.findLast((photon) => photon < page.photon);
-  if (photon !== undefined) open(photon, bounce, name);
-}
-
-/** Goes to the same step of another bounce, or as near to it as the path goes. */
-function goToBounce(bounce) {
-  open(page.photon, bounce, page.steps[page.at].name);
+  const stored = run.dotPhoton.subarray(0, run.stored), isNext = (x) => (x - page.photon) * by > 0;
+  const photon = by > 0 ? stored.find(isNext) : stored.findLast(isNext);
+  if (photon !== undefined) open(photon, page.step.bounce, page.step.name);
 }
 
 function play(on) {
@@ -76,65 +71,44 @@ function play(on) {
   if (on && isLast()) go(0);
 }
 
-/** The code of the step `name`, which Rust wrote, with its titles. */
-const codeOf = (name) => $(`code-${name}`);
-
 function showStep() {
-  const { steps, at } = page, step = steps[at];
-  if (!step) return;
-  const { title, dataset: { short } } = codeOf(step.name);
-  $("photon").value = page.photon;
+  const { photon, story, steps, at, step } = page;
+  const { title, content, dataset: { short } } = $(`step-${step.name}`);
+  $("photon").value = photon;
   $("slider").value = at;
-  $("slider").setAttribute("aria-valuetext", `bounce ${step.bounce}, ${short}`);
+  $("slider").ariaValueText = `bounce ${step.bounce}, ${short}`;
   $("place").textContent = `${at + 1} of ${steps.length}`;
   $("step-title").textContent = title;
-  $("say").replaceChildren(...step.say.map((words) => make("p", {}, words)));
-  $("drawing").innerHTML = step.diagram?.() ?? "";
-  $("more").replaceChildren(...(step.more ?? []).flatMap(([name, value]) =>
-    [make("dt", {}, name), make("dd", {}, value)]));
-  $("sides").hidden = !isDivergence(step);
-  showChips(step);
-  showCode(step);
-  drawPath(step);
+  $("code").replaceChildren(content.cloneNode(true));
+  fill($("code"), valuesOf(run, story, step));
+  $("say").replaceChildren(...$("code").querySelectorAll("p"));
+  // The first line that runs is the first in sight.
+  for (const list of $("code").querySelectorAll("ol"))
+    list.scrollTop = list.querySelector(".lit")?.offsetTop ?? 0;
+  $("sides").hidden = !isDivergence();
+  showChips();
+  showPath();
 }
 
-/** The bounces of the path, and the steps of the bounce that is open, as buttons. */
-function showChips(here) {
-  const { steps, at, story: { hits, ending } } = page, last = steps.length - 1;
-  const chip = (words, isHere, onclick) => {
-    const button = make("button", { onclick }, words);
-    if (isHere) button.setAttribute("aria-current", "step");
-    return button;
-  };
-  const bounces = hits.map(({ bounce, surface }) =>
-    chip(`${bounce} ${surface}`, here.bounce === bounce, () => goToBounce(bounce)));
-  const end = ending === "absorbed" ? "absorbed"
-    : chip(ENDINGS[ending], at === last, () => go(last));
-  const names = steps.map(({ bounce, name }, i) =>
-    bounce === here.bounce ? chip(codeOf(name).dataset.short, i === at, () => go(i)) : "");
+/** Whether the lists part at the step that is open. */
+const isDivergence = () => page.link === $("divergence")?.getAttribute("href");
+
+/** The bounces of the path, and the steps of the bounce that is open, as links. */
+function showChips() {
+  const { photon, steps, step: here, story: { hits, ending } } = page;
+  const short = (name) => $(`step-${name}`).dataset.short;
+  const chip = (words, { bounce, name }, isHere) =>
+    make("a", { href: linkTo(photon, bounce, name), ariaCurrent: isHere ? "step" : null }, words);
+  const toBounce = (words, bounce) =>
+    chip(words, { ...here, bounce }, bounce === here.bounce);
+  const bounces = hits.map(({ bounce, surface }) => toBounce(`${bounce} ${surface}`, bounce));
+  const end = ending ? toBounce(short(ending), hits.length) : "absorbed";
   $("path").replaceChildren("Bounce", ...bounces, end);
-  $("names").replaceChildren(...names);
+  $("names").replaceChildren(...steps.filter(({ bounce }) => bounce === here.bounce)
+    .map((step) => chip(short(step.name), step, step === here)));
   // Where a row does not fit, the one that is open is in sight.
   for (const row of [$("path"), $("names")]) {
-    const open = row.querySelector("[aria-current]");
-    row.scrollLeft = open ? open.offsetLeft - row.offsetLeft - row.clientWidth / 3 : 0;
+    const { offsetLeft } = row.querySelector("[aria-current]");
+    row.scrollLeft = offsetLeft - row.offsetLeft - row.clientWidth / 3;
   }
-}
-
-/** Whether the lists part at `step`. */
-const isDivergence = ({ bounce, name }) =>
-  run.comparison?.parts && [page.photon, bounce, name].join() === run.start.join();
-
-/** The code of a step, with values beside the lines that make them. */
-function showCode({ name, holds, values }) {
-  const code = $("code");
-  code.replaceChildren(codeOf(name).content.cloneNode(true));
-  for (const place of code.querySelectorAll(".value"))
-    if (place.dataset.name in values) place.textContent = values[place.dataset.name];
-    else place.remove();
-  for (const [condition, is] of Object.entries(holds))
-    for (const line of code.querySelectorAll(`.${condition}-${!is}`)) line.className = "skipped";
-  // The first line that runs is the first in sight.
-  for (const list of code.querySelectorAll("ol"))
-    list.scrollTop = list.querySelector(".lit")?.offsetTop ?? 0;
 }

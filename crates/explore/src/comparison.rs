@@ -11,9 +11,10 @@ use serde_json::{Value, json};
 use variants::run::Run;
 use variants::section::Section;
 
-use super::html::{escape, fill};
+use super::html::{escape, fill, prose};
 use super::misreading::ShownMisreading;
 use super::parting::PartingStep;
+use super::step_link;
 
 /// Up to so many differing dots are drawn large.
 const MOST_LARGE: u64 = 2000;
@@ -159,21 +160,22 @@ impl ListComparison {
             None if numbers != RandomNumbers::Same => "unknown",
             None => "different",
         };
-        let hidden = if self.step.is_none() { "hidden" } else { "" };
+        let link = self.parting().map(step_link).unwrap_or_default();
+        let hidden = if link.is_empty() { "hidden" } else { "" };
         let parts = [
             ("outcome", outcome.to_owned()),
-            ("verdict", escape(&verdict)),
-            ("reason", escape(&reason)),
-            ("advice", escape(&advice)),
+            ("verdict", prose(&verdict)),
+            ("reason", prose(&reason)),
+            ("advice", prose(&advice)),
+            ("link", escape(&link)),
             ("hidden", hidden.to_owned()),
-            ("report", escape(&self.report.text())),
+            ("report", prose(&self.report.text())),
         ];
         fill(HEAD, &parts)
     }
 
     /// What the script reads.
     pub(crate) fn meta(&self) -> Value {
-        let step = self.step.as_ref();
         let Differences { matched, missing, moved, extra, .. } = self.report.differences;
         let is_counted = self.random_numbers() != RandomNumbers::Other;
         let legend =
@@ -189,8 +191,7 @@ impl ListComparison {
         json!({
             "legend": legend,
             "areFew": is_counted && missing + moved + extra <= MOST_LARGE,
-            "parts": step.is_some(),
-            "other": step.and_then(|step| step.other),
+            "other": self.step.as_ref().and_then(|step| step.other),
         })
     }
 }

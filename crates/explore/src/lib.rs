@@ -60,7 +60,12 @@ pub fn is_page_of(text: &str, run: &Run) -> bool {
 
 /// The part of a page's address that opens photon `photon`.
 pub fn link(photon: u64) -> String {
-    format!("#photon={photon}&bounce=0&step=emission")
+    step_link((photon, 0, "emission"))
+}
+
+/// The part of a page's address that opens a step of a bounce of a photon.
+fn step_link((photon, bounce, step): (u64, usize, &str)) -> String {
+    format!("#photon={photon}&bounce={bounce}&step={step}")
 }
 
 impl Exploration<'_> {

@@ -65,6 +65,12 @@ impl PackedColumns {
         self.add(name, "f32", column.iter().map(bytes));
     }
 
+    /// Adds a column of unit vectors, three signed bytes each.
+    pub fn normals(&mut self, name: &'static str, column: &[[f32; 3]]) {
+        let bytes = |normal: &[f32; 3]| normal.map(|x| ((x * 127.0) as i8).to_le_bytes()[0]);
+        self.add(name, "i8", column.iter().map(bytes));
+    }
+
     /// What the page must know to read [`Self::to_base64`].
     pub fn sections(&self) -> &[(&'static str, &'static str, usize, usize)] {
         &self.sections

@@ -15,8 +15,8 @@ use super::html::{escape, fill};
 use super::paths::Paths;
 use super::table::table;
 
-/// The port's source as the page shows it, found when this crate was built.
-const CODE: &str = include_str!(concat!(env!("OUT_DIR"), "/code.html"));
+/// The steps with the port's source, found when this crate was built.
+const STEPS: &str = include_str!(concat!(env!("OUT_DIR"), "/steps.html"));
 const TEMPLATE: &str = include_str!("../assets/explore.html");
 const STYLE: &str = include_str!("../assets/explore.css");
 /// One script in strict mode, whose names do not leave it.
@@ -25,8 +25,6 @@ const SCRIPT: &str = concat!(
     include_str!("../assets/data.js"),
     include_str!("../assets/view.js"),
     include_str!("../assets/shaders.js"),
-    include_str!("../assets/orbit.js"),
-    include_str!("../assets/diagrams.js"),
     include_str!("../assets/story.js"),
     include_str!("../assets/box.js"),
     include_str!("../assets/panel.js"),
@@ -58,6 +56,10 @@ pub fn page(exploration: &Exploration) -> String {
         None => "Stored, then expected, then the difference in standard deviations.".to_owned(),
     };
     let whose = if comparison.is_some() { "the reference's" } else { "the" };
+    let difference = match comparison {
+        Some(_) => "<option value=\"kind\" selected>by difference</option>",
+        None => "",
+    };
     let home = if is_handout { "Handout's camera" } else { "Whole scene" };
     let parts = [
         ("policy", policy),
@@ -69,10 +71,11 @@ pub fn page(exploration: &Exploration) -> String {
         ("comparison", comparison.map(ListComparison::head).unwrap_or_default()),
         ("picture", picture(exploration)),
         ("home", home.to_owned()),
+        ("difference", difference.to_owned()),
         ("cells", cells),
         ("table", table(exploration.table, comparison)),
         ("sides", comparison.map(ListComparison::sides).unwrap_or_default()),
-        ("code", CODE.to_owned()),
+        ("steps", STEPS.to_owned()),
         ("meta", meta),
         ("data", data),
         ("script", SCRIPT.to_owned()),

@@ -33,16 +33,17 @@ pub struct Paths {
     /// How many stored photons the page has, if it leaves out some.
     #[serde(skip)]
     pub thinned: Option<u64>,
+    /// How many of the dots are photons that the run stores.
+    stored: usize,
     /// The photon, bounce and step on which the page opens.
     start: Option<(u64, usize, &'static str)>,
     surfaces: Vec<PageSurface>,
     faces: Vec<PageFace>,
-    /// The outlines of the faces.
-    edges: Vec<[[f32; 3]; 2]>,
     lights: Vec<[f32; 3]>,
     camera: Value,
     /// That with which the page opens.
     first_camera: Value,
+    picture_camera: Value,
     /// The scene's longest edge, in world units.
     size: f32,
     /// The edge of the cube in which the picture looks for a photon, in world units.
@@ -56,27 +57,29 @@ impl Paths {
     pub fn new(exploration: &Exploration) -> Self {
         let run = exploration.run;
         let (scene, placement) = (run.scene(), &run.placement);
-        let faces = faces(run);
+        let (surfaces, faces) = (surfaces(scene), faces(run));
         let thinned = thin(exploration.records, MOST_STORED);
         let records = thinned.as_deref().unwrap_or(exploration.records);
         let stories = stories(exploration, records);
         let mut columns = PackedColumns::default();
+        add_walls(&mut columns, &surfaces, &faces);
         add_paths(&mut columns, &stories, &faces, run);
-        add_dots(&mut columns, &stories, exploration);
+        let stored = add_dots(&mut columns, &stories, exploration);
         let first = records.first().map(|record| u64::from(record.photon));
         let size = run.size();
         let parting = exploration.comparison.and_then(ListComparison::parting);
         let lights = scene.lights().iter();
-        let [camera, first_camera] = cameras(exploration.is_handout, &faces, size);
+        let [camera, first_camera, picture_camera] = cameras(exploration.is_handout, &faces, size);
         Self {
             columns,
+            stored,
             thinned: thinned.as_ref().map(|kept| kept.len() as u64),
             start: parting.or_else(|| Some((exploration.photon.or(first)?, 0, "emission"))),
-            surfaces: surfaces(scene),
-            edges: edges(&faces),
+            surfaces,
             lights: lights.map(|light| placement.to_world(light.position).to_array()).collect(),
             camera,
             first_camera,
+            picture_camera,
             faces,
             size,
             dot_size: placement.length_to_world(2.0 * PHOTON_DOT_RADIUS),
@@ -133,6 +136,23 @@ fn stored_places(stories: &[Story], records: &[PhotonRecord]) -> Vec<Option<u32>
     places.collect()
 }
 
+/// Adds the triangles of the walls, and the outlines of the faces.
+fn add_walls(columns: &mut PackedColumns, surfaces: &[PageSurface], faces: &[PageFace]) {
+    let corners = || {
+        faces.iter().flat_map(|face| {
+            face.triangles.as_flattened().iter().map(move |corner| (face, *corner))
+        })
+    };
+    columns.vectors("wallPosition", &corners().map(|(_, corner)| corner).collect::<Vec<_>>());
+    columns.normals("wallNormal", &corners().map(|(face, _)| face.normal).collect::<Vec<_>>());
+    let colors = corners().flat_map(|(face, _)| {
+        let [r, g, b] = surfaces[face.surface].diffuse_response.map(|x| (x * 255.0) as u8);
+        [r, g, b, 255]
+    });
+    columns.bytes("wallColor", &colors.collect::<Vec<_>>());
+    columns.vectors("edgeEnds", edges(faces).as_flattened());
+}
+
 fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace], run: &Run) {
     let hits = || stories.iter().flat_map(|story| &story.hits);
     let mut before = 0;
@@ -180,25 +200,41 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
     }
 }
 
-/// Adds the dots: the photons that `stories` store, and what another list has besides.
-fn add_dots(columns: &mut PackedColumns, stories: &[Story], exploration: &Exploration) {
-    let hits = stories.iter().flat_map(|story| &story.hits);
-    let mut positions: Vec<_> = hits.filter(|hit| hit.bounce > 0).map(|hit| hit.position).collect();
+/// Adds the dots: the photons that `stories` store, those that another list moved, and what it has
+/// besides. Gives how many are stored.
+fn add_dots(columns: &mut PackedColumns, stories: &[Story], exploration: &Exploration) -> usize {
+    let stored: Vec<_> = stories
+        .iter()
+        .flat_map(|story| story.hits.iter().skip(1).map(move |hit| (story.photon as u32, hit)))
+        .collect();
     let overlay = match exploration.comparison {
         Some(comparison) => {
-            comparison.overlay(&stored_places(stories, exploration.records), positions.len())
+            comparison.overlay(&stored_places(stories, exploration.records), stored.len())
         }
-        None => Overlay { kinds: vec![0; positions.len()], ..Overlay::default() },
+        None => Overlay { kinds: vec![0; stored.len()], ..Overlay::default() },
     };
-    let Overlay { kinds, moved_index, extra, .. } = &overlay;
-    positions.extend(&overlay.positions);
-    columns.vectors("positions", &positions);
-    columns.bytes("kind", kinds);
+    let Overlay { kinds, positions, moved_index, extra } = &overlay;
+    let own = || stored.iter().chain(moved_index.iter().map(|at| &stored[*at as usize]));
+    let extra = || extra.iter();
+    let short = |number: usize| number as u16;
+    let mut all: Vec<_> = stored.iter().map(|(_, hit)| hit.position).collect();
+    all.extend(positions);
+    columns.vectors("dotPosition", &all);
+    columns.bytes("dotKind", kinds);
     columns.words("movedIndex", moved_index);
     // What a list does not tell is the largest number.
-    columns.words("extraPhoton", &extra.iter().map(|it| it.photon).collect::<Vec<_>>());
-    columns.shorts("extraBounce", &extra.iter().map(|it| it.bounce).collect::<Vec<_>>());
-    columns.shorts("extraSurface", &extra.iter().map(|it| it.surface).collect::<Vec<_>>());
+    let photons = own().map(|(photon, _)| *photon).chain(extra().map(|it| it.photon));
+    columns.words("dotPhoton", &photons.collect::<Vec<_>>());
+    let bounces = own().map(|(_, hit)| short(hit.bounce)).chain(extra().map(|it| it.bounce));
+    columns.shorts("dotBounce", &bounces.collect::<Vec<_>>());
+    let surfaces = own().map(|(_, hit)| short(hit.surface_index));
+    let surfaces = surfaces.chain(extra().map(|it| it.surface));
+    columns.shorts("dotSurface", &surfaces.collect::<Vec<_>>());
+    // Where another list has a photon, it need not lie on a face.
+    let mut normals: Vec<_> = stored.iter().map(|(_, hit)| hit.normal).collect();
+    normals.resize(all.len(), [0.0; 3]);
+    columns.normals("dotNormal", &normals);
+    stored.len()
 }
 
 /// Whether the direction in which a photon leaves is its last try, normalized.

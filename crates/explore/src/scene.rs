@@ -14,9 +14,8 @@ use variants::run::Run;
 #[derive(Debug, Serialize)]
 pub struct PageSurface {
     pub name: String,
-    /// P_r.
-    pub survival: f32,
-    pub diffuse: [f32; 3],
+    pub probability_of_reflection: f32,
+    pub diffuse_response: [f32; 3],
 }
 
 /// A face of a mesh object, with its frame, in world space.
@@ -31,14 +30,15 @@ pub struct PageFace {
     pub axis: [f32; 3],
     /// The length of n x axis.
     pub bare: f32,
+    #[serde(skip)]
     pub triangles: Vec<[[f32; 3]; 3]>,
 }
 
 pub fn surfaces(scene: &Scene) -> Vec<PageSurface> {
     let surface = |name: &str, diffuse: Vec3| PageSurface {
         name: name.to_owned(),
-        survival: diffuse.max_element(),
-        diffuse: diffuse.to_array(),
+        probability_of_reflection: diffuse.max_element(),
+        diffuse_response: diffuse.to_array(),
     };
     let objects = scene.mesh_objects().iter();
     objects.map(|object| surface(&object.name, object.material.base_diffuse_reflection())).collect()
@@ -95,24 +95,25 @@ pub fn edges(faces: &[PageFace]) -> Vec<[[f32; 3]; 2]> {
     faces.iter().flat_map(outline).collect()
 }
 
-/// The handout's camera, or one that sees all of another scene; then the one with which the page
-/// opens. A camera has the point it turns around, the distance, the direction in radians, and half
-/// the height of its picture at distance 1.
-pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
+/// The camera of the button, that with which the page opens, and that of the picture: the handout's.
+/// A camera has the point it turns around, the distance, the direction in radians, half the height of
+/// its picture at distance 1, and the size of the scene.
+pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 3] {
     let handout = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
     let camera = |target: Vec3, distance: f32, yaw: f32, pitch: f32| {
         json!({
             "target": target.to_array(), "distance": distance, "yaw": yaw, "pitch": pitch,
-            "halfHeight": handout.half_height,
+            "halfHeight": handout.half_height, "size": size,
         })
     };
+    // It turns around the point before it that is nearest to the middle of the box.
+    let distance = -handout.position.dot(handout.forward);
+    let target = handout.position + distance * handout.forward;
+    let picture = camera(target, distance, 0.0, 0.0);
     if is_handout {
-        // It turns around the point before it that is nearest to the middle of the box.
-        let distance = -handout.position.dot(handout.forward);
-        let target = handout.position + distance * handout.forward;
         // From a little farther off, the light is in sight.
         let first = camera(target + 0.2 * Vec3::Z, 1.3 * distance, 0.3, -0.16);
-        return [camera(target, distance, 0.0, 0.0), first];
+        return [picture.clone(), first, picture];
     }
     let corners = || {
         let corners = faces.iter().flat_map(|face| face.triangles.as_flattened());
@@ -121,5 +122,5 @@ pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 2] {
     let low = corners().fold(Vec3::INFINITY, Vec3::min);
     let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
     let whole = camera((low + high) / 2.0, 2.8 * size, 0.5, -0.35);
-    [whole.clone(), whole]
+    [whole.clone(), whole, picture]
 }

@@ -31,11 +31,22 @@ pub fn table(
                 numbers(cell, other)
             )
         });
-        format!("<tr><th scope=\"row\">{name}</th>{}</tr>", cells.collect::<String>())
+        let head = if index < surfaces.len() { choice(index, &name) } else { name.clone() };
+        format!("<tr><th scope=\"row\">{head}</th>{}</tr>", cells.collect::<String>())
     });
     let rows: String = rows.collect();
-    let headings = HEADINGS.map(|name| format!("<th scope=\"col\">{name}</th>")).concat();
+    let headings = HEADINGS.iter().enumerate().map(|(bounce, name)| {
+        let is_bounce = bounce < HEADINGS.len() - 1;
+        let head = if is_bounce { choice(bounce, name) } else { (*name).to_owned() };
+        format!("<th scope=\"col\">{head}</th>")
+    });
+    let headings: String = headings.collect();
     format!("<thead><tr><th scope=\"col\">surface</th>{headings}</tr></thead><tbody>{rows}</tbody>")
+}
+
+/// A box to tick, with the name of the row or column that it shows.
+fn choice(value: usize, name: &str) -> String {
+    format!("<label><input type=\"checkbox\" value=\"{value}\" checked>{name}</label>")
 }
 
 fn numbers(cell: &SummaryCell, other: Option<u64>) -> String {

@@ -81,11 +81,11 @@ fn every_misreading_opens_where_it_differs() {
         // The code is in sight under the verdict and both values, and so is the box between lines.
         let [_, top, ..] = browser.edges("#code .lit");
         assert!(top < 780.0, "{name}: {top}");
-        let lines = float(&browser.run("page.view.layers.moved?.count ?? 0"));
+        let lines = float(&browser.run("(page.view.layers.moved?.count ?? 0) / 2"));
         assert!(lines < 200.0, "{name}: {lines}");
         // What is counted is what is drawn.
         let kinds = browser.run(
-            "[0, 1, 2, 3].map((kind) => page.run.dots.kind.reduce((n, k) => n + (k === kind), 0))",
+            "[0, 1, 2, 3].map((kind) => page.run.dotKind.reduce((n, k) => n + (k === kind), 0))",
         );
         let legend = browser.run("page.run.comparison.legend");
         for (kind, what) in ["matched", "missing"].into_iter().enumerate() {
@@ -94,7 +94,7 @@ fn every_misreading_opens_where_it_differs() {
         }
         // A list whose records tell their photon opens it from there, as a whole of the story.
         let story = explain(&reference.run, photon.into()).expect("emitted");
-        let chips = browser.run("document.querySelectorAll('#path button').length");
+        let chips = browser.run("document.querySelectorAll('#path a').length");
         assert!(float(&chips) >= story.hits.len() as f64, "{name}");
     }
     browser.has_been_quiet();
@@ -127,7 +127,7 @@ fn a_submission_shows_where_it_parts() {
     assert_eq!(float(&browser.run("page.photon")) as u32, reference.records[10].photon);
     assert!(browser.text_of("#sides").contains("submission"));
     // The line leads from where the photon is to where it should be.
-    assert_eq!(browser.run("page.view.layers.moved.count"), 1);
+    assert_eq!(browser.run("page.view.layers.moved.count / 2"), 1);
     // So few dots that differ are large: the one that moved at both of its places.
     assert_eq!(browser.run("page.looks.filter((look, i) => i % 2 && look === 3).length"), 4);
     // A dot of a list without numbers is shown, too, and the one that moved counts once.
@@ -136,15 +136,19 @@ fn a_submission_shows_where_it_parts() {
     // All that moved in a cell have their line as long as the cell is lit.
     let moved = &reference.records[10];
     let [row, column] = [moved.surface + 1, moved.bounce.min(4) + 1];
+    let alpha = || {
+        let tenths = "Math.round(page.view.layers.moved.columns[1][3] / 25.5)";
+        float(&browser.run(tenths))
+    };
     browser.press("n");
     browser.run(&format!(
         "document.querySelector('#table tbody tr:nth-child({row}) td:nth-child({column}) \
          button').focus()"
     ));
-    assert_eq!(browser.run("page.view.layers.moved.count"), 1);
-    assert_eq!(browser.run("page.movedLines()[0].alpha"), 0.7);
+    assert_eq!(browser.run("page.view.layers.moved.count / 2"), 1);
+    assert_eq!(alpha(), 7.0);
     browser.run("document.activeElement.blur()");
-    assert_eq!(browser.run("page.movedLines()[0].alpha"), 1);
+    assert_eq!(alpha(), 10.0);
     // Elsewhere, and back by the button.
     browser.press("n");
     browser.click_on("#divergence");

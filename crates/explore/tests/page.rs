@@ -42,10 +42,7 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     );
     browser.click_on("#home");
     // The path and its labels would hide dots.
-    browser.run(
-        "page.view.setLines('path', []); page.view.setMarks([]); \
-         document.getElementById('labels').style.display = 'none'",
-    );
+    browser.run("document.getElementById('over').style.display = 'none'");
     browser.run("window.scrollTo(0, 0)");
     browser.settle();
     let [left, top, right, bottom] = browser.edges("#view").map(|edge| edge.round() as u32);
@@ -92,7 +89,7 @@ fn clicking_a_dot_opens_its_photon() {
     let Some(browser) = open_handout("#photon=253&bounce=0&step=emission") else { return };
     // Close to the dot, so that no other is as near to the click.
     browser.run(
-        "const stored = page.run.dots.photon.indexOf(73); page.view.look({ \
+        "const stored = page.run.dotPhoton.indexOf(73); page.view.look({ \
          target: page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: 0 });",
     );
     browser.settle();
@@ -128,7 +125,7 @@ fn a_link_restores_its_step() {
     assert!(browser.text_of("#no-story").contains("explore --photon 74"));
     assert_eq!(
         browser.run("[...document.querySelectorAll('#no-story .whole')].map((n) => n.textContent)"),
-        json!(["photon-mapping explore", "--photon"])
+        json!(["photon-mapping explore --photon 74"])
     );
     browser.run("location.hash = '#photon=99999999999'");
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");
@@ -192,11 +189,10 @@ fn table_and_filters_show_what_they_say() {
         format!("{},{:03} photons shown: rightWall, bounce 2.", stored / 1000, stored % 1000);
     assert_eq!(shown(), number);
     browser.click_on("#table tbody tr:nth-child(2) td:nth-child(3) button");
-    browser.run("document.getElementById('filters').open = true");
-    browser.click_on("#by-bounce input");
+    browser.click_on("#table thead input");
     let others = total.stored - total.by_bounce[0].stored;
     assert_eq!(shown(), format!("{},{:03} photons shown.", others / 1000, others % 1000));
-    browser.click_on("#by-bounce input");
+    browser.click_on("#table thead input");
     browser.run(
         "for (const [id, value] of [['from', 73], ['to', 73]]) { const field = \
          document.getElementById(id); field.value = value; field.dispatchEvent(new \

@@ -11,14 +11,15 @@ use serde_json::{Value, json};
 use support::{Traced, handout, open_handout, write_page};
 use variants::run::Run;
 
-/// Each step of the photon that is open: its bounce, name, values beside the code, other values,
-/// the lines lit, and the parts of lines that do not run.
+/// Each step of the photon that is open: its bounce, name, values beside the code and in the words,
+/// the tries, the lines lit, and the parts of lines that do not run.
 const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
     link: page.link, say: document.getElementById('say').textContent,
     values: Object.fromEntries([...document.querySelectorAll('#code .value')].map((v) => \
         [v.dataset.name, v.textContent])),
-    more: Object.fromEntries([...document.querySelectorAll('#more dt')].map((t) => [t.textContent, \
-        t.nextSibling.textContent])),
+    said: Object.fromEntries([...document.querySelectorAll('#say [data-name]')].map((v) => \
+        [v.dataset.name, v.textContent])),
+    tries: [...document.querySelectorAll('#code small')].map((t) => t.textContent),
     lit: [...document.querySelectorAll('#code .lit code')].map((c) => c.textContent.trim()),
     skipped: [...document.querySelectorAll('#code span.skipped')].map((c) => c.textContent) }; })";
 
@@ -42,9 +43,9 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     let show = |names: &[&str]| names.iter().map(|name| step(name)).collect::<Vec<_>>();
     let [at_hit, stored, roulette] =
         show(&["hit", "stored", "roulette"]).try_into().expect("three");
-    assert_eq!(at_hit["more"]["t"], hit.t.to_string());
+    assert_eq!(at_hit["said"]["t"], hit.t.to_string());
     assert_eq!(at_hit["values"]["intersection_point"], vector(&hit.position));
-    assert_eq!(at_hit["more"]["normal"], vector(&hit.normal));
+    assert_eq!(at_hit["said"]["normal"], vector(&hit.normal));
     let says =
         |step: &Value, words: &str| step["say"].as_str().is_some_and(|say| say.contains(words));
     assert!(says(&at_hit, &format!("The ray meets {}, face {},", hit.surface, hit.facet)));
@@ -52,7 +53,7 @@ fn check_hit(hit: &Hit, steps: &[&Value]) {
     let pushed = if hit.stored { "runs" } else { "skipped" };
     assert_eq!(stored["values"]["photon_map.push()"], pushed);
     assert_eq!(stored["values"]["path.len()"], (hit.bounce + 1).to_string());
-    assert_eq!(roulette["values"]["rand()"], hit.roulette.to_string());
+    assert_eq!(roulette["values"]["u"], hit.roulette.to_string());
     assert_eq!(roulette["values"]["probability_of_reflection"], hit.survival.to_string());
     assert!(is_lit(&at_hit, "if remaining_bounces < 0 {"));
     assert!(is_lit(&stored, "if path.len() > 1 {"));
@@ -87,11 +88,12 @@ fn check_story(story: &Story, steps: &Value) {
     }
     assert_eq!(emission["values"]["direction"], vector(&story.emission.direction));
     for (i, xyz) in tries.iter().enumerate() {
-        let told = emission["more"][format!("try {}", i + 1)].as_str().expect("a try");
+        let told = emission["tries"][i].as_str().expect("a try");
         let [x, y, z] = *xyz;
         assert!(
             told.starts_with(&format!(
-                "{}, x² + y² + z² = {}: ",
+                "Try {}: {}, x² + y² + z² = {}:",
+                i + 1,
                 vector(xyz),
                 x * x + y * y + z * z
             )),

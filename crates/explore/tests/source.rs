@@ -6,6 +6,8 @@ mod port;
 use std::fs;
 use std::path::Path;
 
+const STEPS: &str = include_str!("../assets/steps.html");
+
 fn read(file: &str) -> Result<String, String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
     fs::read_to_string(path).map_err(|error| format!("{file}: {error}"))
@@ -19,9 +21,23 @@ fn error(from: &str, to: &str) -> String {
 
 #[test]
 fn the_port_has_all_steps() {
-    let html = port::html::templates(&port::find(read).unwrap());
+    let html = port::html::templates(&port::find(read).unwrap(), STEPS).unwrap();
     for step in ["emission", "hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
-        assert!(html.contains(&format!("<template id=\"code-{step}\"")), "{step}");
+        assert!(html.contains(&format!("<template id=\"step-{step}\"")), "{step}");
+    }
+}
+
+#[test]
+fn a_step_without_its_block_is_named() {
+    let source = port::find(read).unwrap();
+    for (from, to, found) in [
+        ("<template id=\"step-frame\" ", "<template ", "</template>"),
+        (" title=\"{title}\"", "", "{title}"),
+    ] {
+        let error = port::html::templates(&source, &STEPS.replace(from, to)).unwrap_err();
+        let step = if to.is_empty() { "emission" } else { "frame" };
+        let expected = format!("expected '{found}' in '<template id=\"step-{step}\" '");
+        assert_eq!(error, format!("assets/steps.html: {expected}"));
     }
 }
 

@@ -5,16 +5,30 @@ use super::branches::Arm;
 use super::steps::PortStep;
 use super::{FoundFunction, FoundPart, PortSource};
 
-/// A template for each step of `source`.
-pub fn templates(source: &PortSource) -> String {
+/// The blocks of `words`, one for each step of `source`: with the step's title, with places for the
+/// values named in braces, and then with its code.
+///
+/// # Errors
+/// The step that has no block, or whose block lacks its title.
+pub fn templates(source: &PortSource, words: &str) -> Result<String, String> {
     let template = |(step, parts): &(&PortStep, Vec<FoundPart>)| {
-        let PortStep { name, short, section, .. } = step;
+        let start = format!("<template id=\"step-{}\" ", step.name);
+        let missing = |what: &str| format!("assets/steps.html: expected '{what}' in '{start}'");
+        let block = words.split_once(&start).and_then(|(_, rest)| rest.split_once("</template>"));
+        let (block, _) = block.ok_or_else(|| missing("</template>"))?;
+        let (head, words) = block.split_once("{title}").ok_or_else(|| missing("{title}"))?;
         let figures = parts.iter().map(|part| figure(&source.functions[part.function], part));
-        let figures: String = figures.collect();
-        format!(
-            "<template id=\"code-{name}\" data-short=\"{short}\" title=\"{section}\">{figures}\
-             </template>\n"
-        )
+        let mut html = format!("{start}{head}{}", step.section);
+        for (at, text) in words.split(['{', '}']).enumerate() {
+            if at % 2 == 0 {
+                html += text;
+                continue;
+            }
+            let is_drawn = html.rfind("<svg") > html.rfind("</svg");
+            let tag = if is_drawn { "tspan" } else { "b" };
+            html += &format!("<{tag} data-name=\"{text}\"></{tag}>");
+        }
+        Ok(html + &figures.collect::<String>() + "</template>\n")
     };
     source.steps.iter().map(template).collect()
 }

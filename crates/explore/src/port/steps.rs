@@ -15,8 +15,6 @@ pub const SECTIONS: [&str; 5] = [
 pub struct PortStep {
     /// Its name in links.
     pub name: &'static str,
-    /// Its name on a button.
-    pub short: &'static str,
     /// The section of the handout.
     pub section: &'static str,
     pub parts: &'static [PortPart],
@@ -73,7 +71,6 @@ pub const CONDITIONS: [(&str, &str); 6] = [
 pub static STEPS: [PortStep; 9] = [
     PortStep {
         name: "emission",
-        short: "Emission",
         section: EMISSION,
         parts: &[PortPart {
             function: "generate_random_photon_ray",
@@ -90,7 +87,6 @@ pub static STEPS: [PortStep; 9] = [
     },
     PortStep {
         name: "hit",
-        short: "Hit",
         section: STORAGE,
         parts: &[PortPart {
             function: "trace_photon",
@@ -104,7 +100,6 @@ pub static STEPS: [PortStep; 9] = [
     },
     PortStep {
         name: "stored",
-        short: "Stored?",
         section: STORAGE,
         parts: &[PortPart {
             function: "trace_photon",
@@ -118,7 +113,6 @@ pub static STEPS: [PortStep; 9] = [
     },
     PortStep {
         name: "roulette",
-        short: "Roulette",
         section: SCATTERING,
         parts: &[PortPart {
             function: "trace_photon",
@@ -128,13 +122,12 @@ pub static STEPS: [PortStep; 9] = [
                 "hit_mesh_object",
                 "diffuse_response",
                 "probability_of_reflection",
-                "rand(): if rand() >=",
+                "u: if rand() >=",
             ],
         }],
     },
     PortStep {
         name: "hemisphere",
-        short: "Hemisphere",
         section: SAMPLING,
         parts: &[
             PortPart {
@@ -155,13 +148,12 @@ pub static STEPS: [PortStep; 9] = [
     },
     PortStep {
         name: "frame",
-        short: "Frame",
         section: TRANSFORMATION,
         parts: &[
             PortPart {
                 function: "diffuse_reflection_ray",
                 lines: LitLines::Within(TRANSFORMATION, "let normal", "let world_space_direction"),
-                values: &["normal", "world_space_direction"],
+                values: &["normal", "nearly: let world_space_direction = "],
             },
             PortPart {
                 function: "tangent_frame",
@@ -172,7 +164,6 @@ pub static STEPS: [PortStep; 9] = [
     },
     PortStep {
         name: "ray",
-        short: "New ray",
         section: TRANSFORMATION,
         parts: &[
             PortPart {
@@ -192,13 +183,12 @@ pub static STEPS: [PortStep; 9] = [
             PortPart {
                 function: "trace_photon",
                 lines: LitLines::Within(SCATTERING, "self.trace_photon(", "remaining_bounces - 1"),
-                values: &["remaining_bounces: remaining_bounces - 1"],
+                values: &["bounces_left: remaining_bounces - 1"],
             },
         ],
     },
     PortStep {
         name: "miss",
-        short: "No hit",
         section: STORAGE,
         parts: &[PortPart {
             function: "trace_photon",
@@ -208,7 +198,6 @@ pub static STEPS: [PortStep; 9] = [
     },
     PortStep {
         name: "limit",
-        short: "Bounce limit",
         section: STORAGE,
         parts: &[PortPart {
             function: "trace_photon",
