@@ -136,7 +136,7 @@ fn a_compiler_that_waits_for_a_busy_machine_has_time() {
     if kit().is_none() {
         return;
     }
-    let mut kit = Kit::new(None).expect("there was one");
+    let mut kit = Kit::kept_in(None, None).expect("there was one");
     let folder = tempfile::tempdir().expect("a folder");
     let slow = folder.path().join("slow");
     let script = format!(
@@ -176,7 +176,7 @@ fn headers_are_precompiled_for_what_includes_them_as_they_are() {
             assert_eq!(printed.starts_with("! "), is_taken, "{name}: {printed}");
         }
     }
-    let kit = Kit::new(None).expect("there was one");
+    let kit = Kit::kept_in(None, None).expect("there was one");
     kit.prepare_for(1);
     assert!(!kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch").exists());
 }
