@@ -79,9 +79,9 @@ pub struct Kit {
     /// Both folders, locked as long as this process lives.
     _locks: [File; 2],
     /// The compiler.
-    pub compiler: PathBuf,
+    pub(crate) compiler: PathBuf,
     /// Where glm is, if not where the compiler looks anyway.
-    pub glm: Option<PathBuf>,
+    pub(crate) glm: Option<PathBuf>,
     /// Where the compiler looks for headers.
     pub(crate) system: Vec<PathBuf>,
     /// Whether the compiler is clang, which assembles by itself.
@@ -206,7 +206,7 @@ impl Kit {
     ///
     /// # Errors
     /// When it cannot be made.
-    pub fn work_folder(&self) -> Result<TempDir, CheckError> {
+    pub(crate) fn work_folder(&self) -> Result<TempDir, CheckError> {
         tempfile::Builder::new()
             .prefix("submission-")
             .tempdir_in(self.folder())

@@ -108,7 +108,7 @@ fn files_that_were_not_handed_in_are_not_read() {
         let folder = tempfile::tempdir().expect("a folder");
         let light = folder.path().join(LIGHT);
         fs::write(&light, read(LIGHT) + &line).expect("can be written");
-        let submission = CppSubmission::of_files(&light, &renderer);
+        let submission = CppSubmission::default();
         let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("it is new");
         let copy = workshop.path().join("submission").join(LIGHT_FOLDER).join(LIGHT);
         let compiled = workshop.compile(&copy, false).expect("there is a compiler");

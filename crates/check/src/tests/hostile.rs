@@ -45,7 +45,7 @@ fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
     let Some(kit) = kit() else { return };
     let light = handed_in().join("hostile/PointLight.cpp");
     let renderer = handed_in().join("submissions/one_function/PhotonMappingRenderer.cpp");
-    let submission = CppSubmission::of_files(&light, &renderer);
+    let submission = CppSubmission::default();
     let workshop = Workshop::new(kit, &light, &renderer, &submission, Duration::from_secs(60));
     let workshop = workshop.expect("a workshop");
     let program = workshop.build(1).expect("a compiler").expect("it compiles");
