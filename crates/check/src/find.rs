@@ -9,13 +9,13 @@ use encoding_rs::{Encoding, UTF_8};
 use crate::error::CheckError;
 
 /// The file with `GenerateRandomPhotonRay`.
-pub const LIGHT: &str = "PointLight.cpp";
+pub(crate) const LIGHT: &str = "PointLight.cpp";
 /// The file with `TracePhoton`.
-pub const RENDERER: &str = "PhotonMappingRenderer.cpp";
+pub(crate) const RENDERER: &str = "PhotonMappingRenderer.cpp";
 /// Where the framework keeps the light's files.
-pub const LIGHT_FOLDER: &str = "common/Scene/Lights/Point";
+pub(crate) const LIGHT_FOLDER: &str = "common/Scene/Lights/Point";
 /// Where the framework keeps the renderer's files.
-pub const RENDERER_FOLDER: &str = "common/Rendering/Renderer/Photon";
+pub(crate) const RENDERER_FOLDER: &str = "common/Rendering/Renderer/Photon";
 /// What the light's file defines.
 const EMISSION: &str = "PointLight::GenerateRandomPhotonRay";
 /// What the renderer's file defines.
@@ -74,16 +74,6 @@ impl CppSubmission {
             submission.notes.push(format!("only the first {MOST_FILES} files were searched"));
         }
         Ok(submission)
-    }
-
-    /// The submission with these two files, and nothing else.
-    pub fn of_files(light: &Path, renderer: &Path) -> Self {
-        Self {
-            name: name_of(renderer.parent().unwrap_or(renderer)),
-            light: Some(light.to_owned()),
-            renderer: Some(renderer.to_owned()),
-            ..Self::default()
-        }
     }
 
     /// The folders in the class `path`, each of which is a submission.

@@ -93,13 +93,13 @@ impl Workshop<'_> {
     ) -> Option<&'p str> {
         // Without the compiler's folders, nothing could be told apart.
         let system = &self.kit.system;
-        let trusted =
-            || system.iter().chain(&self.kit.glm).map(PathBuf::as_path).chain([self.kit.path()]);
+        let ours = [self.kit.path(), self.kit.folder()];
+        let trusted = || system.iter().chain(&self.kit.glm).map(PathBuf::as_path).chain(ours);
         let is_foreign = |path: &&String| {
             let written = without_dots(Path::new(path));
             !system.is_empty()
                 && written.is_absolute()
-                // The submission's folder is in the kit's, and has no links.
+                // The submission's folder is in ours, and has no links.
                 && !trusted().any(|folder| written.starts_with(folder))
                 && !std::fs::canonicalize(&written).is_ok_and(|path| self.is_students(&path))
         };

@@ -86,7 +86,7 @@ pub fn grade(report: &CheckReport, settings: &Settings, expectations: &Expectati
 }
 
 /// The findings of `grade` that come from the statistics of the list.
-pub fn of_statistics(grade: &Grade) -> impl Iterator<Item = &Finding> {
+pub(crate) fn of_statistics(grade: &Grade) -> impl Iterator<Item = &Finding> {
     let own = [BUILDS, WHOLE, REMARK];
     grade.findings.iter().filter(move |finding| {
         !own.contains(&finding.check) && finding.section != Some(finding.check)
@@ -129,15 +129,12 @@ fn section(verdict: &sections::SectionVerdict) -> Vec<Finding> {
         })
         .collect();
     match verdict.status {
-        Status::Right => findings.push(finding("right".to_owned(), true, Weight::Fault, "")),
-        Status::RightUnderAnotherReading => {
-            let found =
-                format!("right under another fair reading: {}", verdict.readings.join("; "));
-            findings.push(finding(found, true, Weight::Fault, ""));
+        Status::Right | Status::RightUnderAnotherReading => {
+            findings.push(finding(verdict.in_words(), true, Weight::Fault, ""));
         }
         Status::NotReached => {
             let advice = "Mend what keeps this section from being reached.";
-            findings.push(finding("not reached".to_owned(), false, Weight::Remark, advice));
+            findings.push(finding(verdict.in_words(), false, Weight::Remark, advice));
         }
         Status::Wrong => {}
     }

@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
@@ -12,6 +11,7 @@ use tempfile::TempDir;
 
 use crate::error::CheckError;
 use crate::foreign::system_folders;
+use crate::kept::{kept, make_whole, remove_unused, users_folder};
 
 /// The framework's standard.
 pub(crate) const STANDARD: &str = "-std=gnu++11";
@@ -20,10 +20,12 @@ pub(crate) const FIRST_HEADERS: [&str; 2] = [
     "standin/common/Rendering/Renderer/Photon/PhotonMappingRenderer.h",
     "standin/common/Scene/Lights/Point/PointLight.h",
 ];
+/// The harness, compiled for submissions without headers of their own.
+const HARNESS: &str = "harness.o";
 /// For as many submissions, precompiled headers take less time than they save.
 const MANY: usize = 6;
-/// How the names of our temporary folders begin.
-const PREFIX: &str = "photon-mapping-check-";
+/// How the names of our folders begin.
+pub(crate) const PREFIX: &str = "photon-mapping-check-";
 /// A younger folder may not be locked yet.
 const YOUNG: Duration = Duration::from_secs(60);
 
@@ -34,7 +36,7 @@ macro_rules! assets {
 }
 
 /// The C++ files, by their paths under the kit's folder.
-const ASSETS: &[(&str, &str)] = assets![
+pub(crate) const ASSETS: &[(&str, &str)] = assets![
     "harness/all.cpp",
     "harness/around.cpp",
     "harness/guard.cpp",
@@ -68,70 +70,100 @@ const ASSETS: &[(&str, &str)] = assets![
     "standin/kdtree++/kdtree.hpp",
 ];
 
-/// The kit in a folder of its own, which goes with it.
+/// The kit, and a folder for submissions, which goes with it.
 #[derive(Debug)]
 pub struct Kit {
     folder: TempDir,
-    /// The folder, locked as long as this process lives.
-    _lock: File,
+    /// Where the kit is: the user's folder for it, else `folder`.
+    home: PathBuf,
+    /// Both folders, locked as long as this process lives.
+    _locks: [File; 2],
     /// The compiler.
-    pub compiler: PathBuf,
+    pub(crate) compiler: PathBuf,
     /// Where glm is, if not where the compiler looks anyway.
-    pub glm: Option<PathBuf>,
+    pub(crate) glm: Option<PathBuf>,
     /// Where the compiler looks for headers.
     pub(crate) system: Vec<PathBuf>,
     /// Whether the compiler is clang, which assembles by itself.
     pub(crate) is_clang: bool,
-    /// The harness, compiled for submissions without headers of their own.
-    harness: Mutex<Option<PathBuf>>,
+    /// Held while the harness is compiled.
+    harness: Mutex<()>,
 }
 
 impl Kit {
-    /// Writes the kit and looks for a compiler: `$CXX`, `c++`, `g++`, `clang++`.
+    /// Looks for a compiler, `$CXX`, `c++`, `g++`, `clang++`, and for the kit that an earlier run
+    /// kept for it. Else writes one.
     ///
     /// # Errors
     /// When there is none, or the kit cannot be written.
     pub fn new(glm: Option<&Path>) -> Result<Self, CheckError> {
+        Self::kept_in(users_folder().as_deref(), glm)
+    }
+
+    pub(crate) fn kept_in(parent: Option<&Path>, glm: Option<&Path>) -> Result<Self, CheckError> {
         let (compiler, version) = find_compiler().ok_or(CheckError::NoCompiler)?;
-        let parent = std::env::temp_dir();
-        remove_abandoned(&parent);
+        let temporary = std::env::temp_dir();
+        remove_unused(&temporary, YOUNG);
         let folder = tempfile::Builder::new()
             .prefix(PREFIX)
-            .tempdir_in(parent)
+            .tempdir_in(temporary)
             .map_err(CheckError::io("a folder for temporary files"))?;
         let lock = File::open(folder.path()).and_then(|lock| Ok((lock.lock()?, lock)));
         let (_, lock) = lock.map_err(CheckError::io("a folder for temporary files"))?;
-        for (path, content) in ASSETS {
-            write(&folder.path().join(path), content.as_bytes())?;
-        }
         let glm = glm.map(|glm| fs::canonicalize(glm).unwrap_or_else(|_| glm.to_owned()));
         let system = system_folders(&compiler);
+        // Another glm has other times.
+        let times = glm.iter().chain(&system).filter_map(|folder| {
+            fs::metadata(folder.join("glm/glm.hpp")).and_then(|about| about.modified()).ok()
+        });
+        let times: Vec<_> = times.collect();
+        let key = (&compiler, &version, &glm, &system, times);
+        let (home, lock_of_home) = match parent.and_then(|parent| kept(parent, key)) {
+            Some(kept) => kept,
+            None => {
+                write_assets(folder.path())?;
+                let again = lock.try_clone().map_err(CheckError::io("a file that is open"))?;
+                (folder.path().to_owned(), again)
+            }
+        };
         let is_clang = version.contains("clang");
-        let harness = Mutex::new(None);
-        Ok(Self { folder, _lock: lock, compiler, glm, system, is_clang, harness })
+        let (harness, _locks) = (Mutex::new(()), [lock, lock_of_home]);
+        Ok(Self { folder, home, _locks, compiler, glm, system, is_clang, harness })
     }
 
     /// The folder with the kit.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
+        &self.home
+    }
+
+    /// The folder with the submissions.
+    pub(crate) fn folder(&self) -> &Path {
         self.folder.path()
     }
 
-    /// Precompiles headers if so many `submissions` follow that it saves time. GCC takes what is
-    /// precompiled only where that changes nothing: for the first header that a file includes.
+    /// Precompiles headers if so many `submissions` follow that it saves time, or this user checks
+    /// again and again. GCC takes what is precompiled only where that changes nothing: for the
+    /// first header that a file includes.
     pub fn prepare_for(&self, submissions: usize) {
         // Clang would have to be told in every call, and would then take it in any case.
-        if submissions < MANY || self.is_clang {
+        if self.is_clang || (submissions < MANY && !self.path().join(HARNESS).exists()) {
             return;
         }
         let precompile = |header: &str| {
             let header = self.path().join(header);
+            let precompiled = header.with_extension("h.gch");
+            if precompiled.exists() {
+                return;
+            }
             let command = self.command(STANDARD);
             let mut process = Command::new(&command[0]);
             process.args(&command[1..]).arg("-I").arg(self.path().join("standin"));
             process.args(self.glm.iter().flat_map(|glm| ["-I".as_ref(), glm.as_os_str()]));
             process.args(["-x", "c++-header"]).arg(header).stdin(Stdio::null());
             // What fails here fails again where it is told.
-            let _ = process.output();
+            let _ = make_whole(&precompiled, |path| {
+                Ok(process.arg("-o").arg(path).output()?.status.success())
+            });
         };
         std::thread::scope(|scope| {
             for header in FIRST_HEADERS {
@@ -157,46 +189,34 @@ impl Kit {
         compile: impl FnOnce() -> Result<Result<PathBuf, E>, CheckError>,
     ) -> Result<Result<PathBuf, E>, CheckError> {
         // Others wait: they need the same object.
-        let mut harness = self.harness.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(path) = &*harness {
-            return Ok(Ok(path.clone()));
+        let _lock = self.harness.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.path().join(HARNESS);
+        if kept.exists() {
+            return Ok(Ok(kept));
         }
         let object = match compile()? {
             Ok(object) => object,
             Err(error) => return Ok(Err(error)),
         };
-        let kept = self.path().join("harness.o");
-        fs::copy(object, &kept).map_err(CheckError::io("harness.o"))?;
-        *harness = Some(kept.clone());
-        Ok(Ok(kept))
+        let is_kept = make_whole(&kept, |path| fs::copy(&object, path).map(|_| true)).is_ok();
+        Ok(Ok(if is_kept { kept } else { object }))
     }
 
     /// A new empty folder for one submission.
     ///
     /// # Errors
     /// When it cannot be made.
-    pub fn work_folder(&self) -> Result<TempDir, CheckError> {
+    pub(crate) fn work_folder(&self) -> Result<TempDir, CheckError> {
         tempfile::Builder::new()
             .prefix("submission-")
-            .tempdir_in(self.path())
+            .tempdir_in(self.folder())
             .map_err(CheckError::io("a folder for temporary files"))
     }
 }
 
-/// Removes the folders in `parent` that killed processes of this user left: nobody locks them.
-fn remove_abandoned(parent: &Path) {
-    let user = rustix::process::geteuid().as_raw();
-    for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
-        let is_ours = entry.file_name().to_string_lossy().starts_with(PREFIX)
-            && fs::symlink_metadata(entry.path()).is_ok_and(|about| {
-                let age = about.modified().ok().and_then(|modified| modified.elapsed().ok());
-                about.is_dir() && about.uid() == user && age.is_some_and(|age| age > YOUNG)
-            });
-        if is_ours && File::open(entry.path()).is_ok_and(|folder| folder.try_lock().is_ok()) {
-            // What cannot be removed now is tried again by the next run.
-            let _ = fs::remove_dir_all(entry.path());
-        }
-    }
+/// Writes the kit to `folder`.
+pub(crate) fn write_assets(folder: &Path) -> Result<(), CheckError> {
+    ASSETS.iter().try_for_each(|(path, content)| write(&folder.join(path), content.as_bytes()))
 }
 
 /// Writes a file, with the folders above it.
@@ -217,41 +237,4 @@ fn find_compiler() -> Option<(PathBuf, String)> {
         let version = String::from_utf8_lossy(&output.stdout).into_owned();
         output.status.success().then(|| (PathBuf::from(name), version))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_folders_that_a_killed_process_left_are_removed() {
-        let parent = tempfile::tempdir().expect("a folder");
-        let at = |name: &str| parent.path().join(name);
-        let outside = tempfile::tempdir().expect("a folder");
-        for name in [&format!("{PREFIX}old"), &format!("{PREFIX}locked"), "other"] {
-            write(&at(name).join("submission-1/a.o"), b"").expect("can be written");
-        }
-        std::os::unix::fs::symlink(outside.path(), at("photon-mapping-check-link"))
-            .expect("a link");
-        let now = std::time::SystemTime::now();
-        for entry in fs::read_dir(parent.path()).expect("a folder").flatten() {
-            let folder = File::open(entry.path()).expect("a folder");
-            folder.set_modified(now - 2 * YOUNG).expect("can be set");
-        }
-        write(&at("photon-mapping-check-young").join("plan.txt"), b"").expect("can be written");
-        let lock = File::open(at("photon-mapping-check-locked")).expect("a folder");
-        lock.lock().expect("can be locked");
-        remove_abandoned(parent.path());
-        let left = fs::read_dir(parent.path()).expect("a folder").flatten();
-        let mut left: Vec<_> = left.map(|entry| entry.file_name()).collect();
-        left.sort();
-        let names = ["check-link", "check-locked", "check-young"];
-        let names = names.map(|name| format!("photon-mapping-{name}"));
-        assert_eq!(left[1..], names.map(OsString::from));
-        assert!(left[0] == "other" && outside.path().is_dir());
-        // Closing is not enough: a compiler that another test starts may hold a copy for a moment.
-        lock.unlock().expect("can be unlocked");
-        remove_abandoned(parent.path());
-        assert!(!at("photon-mapping-check-locked").exists());
-    }
 }

@@ -16,6 +16,7 @@ pub mod find;
 mod foreign;
 pub mod grade;
 mod headers;
+mod kept;
 pub mod kit;
 mod link;
 mod messages;

@@ -51,7 +51,7 @@ impl Whole {
     }
 
     /// Whether it draws the reference's numbers: from `rand()` and its like, and as often.
-    pub fn draws_nothing(&self) -> bool {
+    fn draws_nothing(&self) -> bool {
         self.drawn.is_some_and(|drawn| drawn < self.photons)
     }
 
@@ -118,13 +118,6 @@ impl Whole {
         let shown = shown.and_then(|(number, _)| number.replace(',', "").parse().ok());
         let photon = shown.or(first.photon).map(explain).unwrap_or_default();
         format!("it differs from the reference{what}{photon}")
-    }
-}
-
-impl CheckReport {
-    /// Whether all sections are right, under whatever fair reading.
-    pub fn is_right(&self) -> bool {
-        are_right(&self.sections)
     }
 }
 

@@ -114,7 +114,8 @@ impl Program {
     }
 
     /// Runs the program. `on_bytes` gets what it writes to file descriptor 3, piece by piece, and
-    /// answers how long the next piece may take; nothing for the end of the program.
+    /// answers how long the next piece may take; nothing where all is known, which ends the
+    /// program.
     ///
     /// # Errors
     /// When the shell cannot be started.
@@ -133,6 +134,7 @@ impl Program {
         let mut patience = limits.time;
         let mut last = start;
         let mut ended = None;
+        let mut is_known = false;
         loop {
             while let Ok(piece) = printed.try_recv() {
                 output.add(&piece);
@@ -154,7 +156,10 @@ impl Program {
                         last = Instant::now();
                         patience = longest;
                     }
-                    None => break,
+                    None => {
+                        is_known = true;
+                        break;
+                    }
                 },
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => break,
@@ -162,7 +167,7 @@ impl Program {
         }
         // The pipe may be closed before the program ends.
         let mut status = None;
-        if ended.is_none() {
+        if ended.is_none() && !is_known {
             let closed = Instant::now();
             while status.is_none() {
                 status = child.try_wait().map_err(CheckError::io("sh"))?;
@@ -222,7 +227,7 @@ impl Printed {
 
 /// Reads `from` on a thread of its own. A few pieces at most wait to be looked at.
 fn read_pieces(mut from: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
-    let (send, receive) = sync_channel(16);
+    let (send, receive) = sync_channel(64);
     std::thread::spawn(move || {
         let mut buffer = vec![0; 1 << 16];
         while let Ok(count @ 1..) = from.read(&mut buffer) {

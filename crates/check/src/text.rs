@@ -7,7 +7,7 @@ use grading::verdict::Grade;
 
 use crate::grade::of_statistics;
 use crate::report::CheckReport;
-use crate::sections::{SectionVerdict, Status};
+use crate::sections::SectionVerdict;
 
 /// The report and its `grade`, of at most `best` points, as text.
 pub fn text(report: &CheckReport, grade: &Grade, best: f64) -> String {
@@ -44,16 +44,7 @@ pub fn text(report: &CheckReport, grade: &Grade, best: f64) -> String {
 }
 
 fn section(verdict: &SectionVerdict, line: &mut impl FnMut(String)) {
-    let title = verdict.section.title();
-    let status = match verdict.status {
-        Status::Right => "right".to_owned(),
-        Status::RightUnderAnotherReading => {
-            format!("right under another fair reading: {}", verdict.readings.join("; "))
-        }
-        Status::Wrong => "wrong".to_owned(),
-        Status::NotReached => "not reached".to_owned(),
-    };
-    line(format!("  {title}: {status}"));
+    line(format!("  {}: {}", verdict.section.title(), verdict.in_words()));
     for fault in &verdict.faults {
         let name = fault.name.map(|name| format!("{name}: ")).unwrap_or_default();
         line(format!("    {name}{}", fault.found));

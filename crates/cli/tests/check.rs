@@ -186,8 +186,8 @@ fn reports_are_printed_as_they_come() {
     let compiler = folder.path().join("compiler");
     let script = format!(
         "#!/bin/sh\nfor last; do :; done\n\
-         if grep -q 'is slow' \"$last\" 2>/dev/null; then sleep 2; fi\n\
-         if grep -q waits \"$last\" 2>/dev/null; then\n\
+         if grep -q 'is slow' -- \"$last\" 2>/dev/null; then sleep 0.5; fi\n\
+         if grep -q waits -- \"$last\" 2>/dev/null; then\n\
          i=0; while [ $i -lt 200 ] && ! [ -e {0} ]; do sleep 0.1; i=$((i + 1)); done\n\
          [ -e {0} ] || {{ echo \"$last:1:1: error: in vain\" >&2; exit 1; }}\nfi\n\
          exec c++ \"$@\"\n",

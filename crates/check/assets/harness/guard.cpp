@@ -174,8 +174,8 @@ private:
 };
 
 void guard(int argc, char** argv, char**) {
-    // For constructors of static objects; each step then has its own.
-    photon_check::give_processor_time(3);
+    // As much as a step has, for constructors of static objects.
+    photon_check::give_processor_time(argc > 4 ? static_cast<unsigned>(std::atoi(argv[4])) : 3);
     photon_check::open_pipe();
     // No file can be opened after this.
     if (argc > 1) {

@@ -85,6 +85,15 @@ impl SectionVerdict {
         matches!(self.status, Status::Right | Status::RightUnderAnotherReading)
     }
 
+    /// The status, with the readings that it names.
+    pub(crate) fn in_words(&self) -> String {
+        let readings = self.readings.join("; ");
+        match self.status {
+            Status::RightUnderAnotherReading => format!("{}: {readings}", self.status.in_words()),
+            status => status.in_words().to_owned(),
+        }
+    }
+
     fn fault(&mut self, name: Option<&'static str>, found: String, advice: &'static str) {
         self.faults.push(Fault { name, found, advice });
     }

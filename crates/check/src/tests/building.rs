@@ -7,12 +7,15 @@ use std::time::Duration;
 
 use variants::section::Section;
 
-use super::{faults, handed_in, kit, read, report, report_on, sections_text};
+use super::{faults, handed_in, kit, read, report, report_on, sections_text, target};
 use crate::checking::{CheckSettings, check};
-use crate::find::CppSubmission;
+use crate::find::{CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER};
 use crate::kit::{FIRST_HEADERS, Kit, STANDARD};
 use crate::report::Builds;
 use crate::sections::Status;
+use crate::workshop::Workshop;
+
+const TIME: Duration = Duration::from_secs(60);
 
 #[test]
 fn a_missing_name_is_told_with_file_and_line() {
@@ -83,7 +86,7 @@ fn files_that_were_not_handed_in_are_not_read() {
     let secret = outside.path().join("secret.h");
     fs::write(&secret, "hunter2 = no_type;\n").expect("can be written");
     let secret = secret.display();
-    let at_top = [
+    let lines = [
         format!("#include \"{secret}\"\n"),
         format!("#include \"/usr/include/../..{secret}\"\n"),
         format!("#define TEXT \"{secret}\"\n#include TEXT\n"),
@@ -99,16 +102,20 @@ fn files_that_were_not_handed_in_are_not_read() {
         ),
         "__asm__(\"no_such_instruction\");\n".to_owned(),
     ];
-    for first in at_top {
-        let report = report_on(&[
-            ("PointLight.cpp", (first.clone() + &read("PointLight.cpp")).into_bytes()),
-            ("PhotonMappingRenderer.cpp", read("PhotonMappingRenderer.cpp").into_bytes()),
-        ]);
-        let Some(report) = report else { return };
-        let Builds::No(error) = &report.builds else { panic!("{first} builds: {report:?}") };
-        assert!(!format!("{report:?}").contains("hunter2"), "{first}: {report:?}");
+    let Some(kit) = kit() else { return };
+    let renderer = handed_in().join("submissions/one_function").join(RENDERER);
+    for line in lines {
+        let folder = tempfile::tempdir().expect("a folder");
+        let light = folder.path().join(LIGHT);
+        fs::write(&light, read(LIGHT) + &line).expect("can be written");
+        let submission = CppSubmission::default();
+        let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("it is new");
+        let copy = workshop.path().join("submission").join(LIGHT_FOLDER).join(LIGHT);
+        let compiled = workshop.compile(&copy, false).expect("there is a compiler");
+        let Err(error) = compiled else { panic!("{line} builds") };
+        assert!(!format!("{error:?}").contains("hunter2"), "{line}: {error:?}");
         let is_told = ["not handed in", "assembler code", "nonsense", "not supported"];
-        assert!(is_told.iter().any(|words| error.message.contains(words)), "{first}: {error:?}");
+        assert!(is_told.iter().any(|words| error.message.contains(words)), "{line}: {error:?}");
     }
 }
 
@@ -136,7 +143,7 @@ fn a_compiler_that_waits_for_a_busy_machine_has_time() {
     if kit().is_none() {
         return;
     }
-    let mut kit = Kit::new(None).expect("there was one");
+    let mut kit = Kit::kept_in(target().as_deref(), None).expect("there was one");
     let folder = tempfile::tempdir().expect("a folder");
     let slow = folder.path().join("slow");
     let script = format!(
@@ -176,7 +183,7 @@ fn headers_are_precompiled_for_what_includes_them_as_they_are() {
             assert_eq!(printed.starts_with("! "), is_taken, "{name}: {printed}");
         }
     }
-    let kit = Kit::new(None).expect("there was one");
+    let kit = Kit::kept_in(None, None).expect("there was one");
     kit.prepare_for(1);
     assert!(!kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch").exists());
 }

@@ -11,7 +11,6 @@ mod styles_of_state;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 
 use variants::section::Section;
@@ -22,15 +21,14 @@ use crate::kit::Kit;
 use crate::report::CheckReport;
 use crate::sections::SectionVerdict;
 
-/// The kit, made ready once for all tests; nothing, with a message, where there is no compiler or
-/// no glm. In CI there must be both.
+/// The kit, made ready once for all tests and kept for the next run of them; nothing, with a
+/// message, where there is no compiler or no glm. In CI there must be both.
 fn kit() -> Option<&'static Kit> {
-    static KIT: OnceLock<Option<(Kit, Child)>> = OnceLock::new();
-    let made = KIT.get_or_init(|| match Kit::new(None) {
+    static KIT: OnceLock<Option<Kit>> = OnceLock::new();
+    let made = KIT.get_or_init(|| match Kit::kept_in(target().as_deref(), None) {
         Ok(kit) => {
             kit.prepare_for(100);
-            let remover = remove_when_we_end(kit.path());
-            Some((kit, remover))
+            Some(kit)
         }
         Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
         Err(error) => {
@@ -38,15 +36,12 @@ fn kit() -> Option<&'static Kit> {
             None
         }
     });
-    made.as_ref().map(|(kit, _)| kit)
+    made.as_ref()
 }
 
-/// Nothing drops a static: a process that waits for our end removes the folder.
-fn remove_when_we_end(folder: &Path) -> Child {
-    let mut shell = Command::new("sh");
-    shell.args(["-c", "cat; rm -rf -- \"$0\""]).arg(folder);
-    shell.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
-    shell.spawn().expect("a shell")
+/// Where all tests of the workspace keep the kit: beside the folders of what cargo builds.
+fn target() -> Option<PathBuf> {
+    Some(std::env::current_exe().ok()?.ancestors().nth(3)?.join("tmp"))
 }
 
 /// `program` under another name, by which it chooses what it does.

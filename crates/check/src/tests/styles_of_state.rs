@@ -120,6 +120,6 @@ fn an_engine_of_its_own_gives_the_same_photons_in_every_check() {
     let of_renderer = format!("{INCLUDE}\n{draw}");
     let changes =
         [(include, &*of_light), (INCLUDE, &of_renderer), ("(float)rand() / RAND_MAX", "Draw()")];
-    let lists = [(); 3].map(|()| report(&changes).and_then(|report| report.list));
-    assert!(lists[0] == lists[1] && lists[0] == lists[2]);
+    let lists = [(); 2].map(|()| report(&changes).and_then(|report| report.list));
+    assert!(lists[0] == lists[1]);
 }

@@ -11,7 +11,8 @@ use serde_json::Value;
 
 /// The program, to be run with `arguments`, which may be paths.
 pub fn run<A: AsRef<std::ffi::OsStr>>(arguments: impl IntoIterator<Item = A>) -> Assert {
-    Command::cargo_bin("photon-mapping").expect("the program is built").args(arguments).assert()
+    let mut command = Command::cargo_bin("photon-mapping").expect("the program is built");
+    command.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR")).args(arguments).assert()
 }
 
 /// Runs the program with the words of `line`; `{}` stands for the next of `paths`.
@@ -63,7 +64,7 @@ pub fn reference_csv(folder: &Path, photons: u64) -> PathBuf {
 /// The program, to be started in `folder`.
 pub fn program(folder: &Path) -> std::process::Command {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_photon-mapping"));
-    command.current_dir(folder);
+    command.current_dir(folder).env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
     command
 }
 
