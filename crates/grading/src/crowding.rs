@@ -13,21 +13,35 @@ use glam::DVec3;
 /// A bound on the chance that `positions`, rounded to `unit`, share cubes as often as they do.
 pub fn crowding(positions: impl Iterator<Item = DVec3> + Clone, unit: f64) -> f64 {
     let mut smallest = 0.0_f64;
+    let growth = WEIGHTS_OF_SHARED.map(f64::exp_m1);
     for edge in EDGES.into_iter().filter(|edge| unit <= *edge * (1.0 + 1e-9)) {
         let of_cube = DENSEST * AREA_IN_CUBE * (edge + unit).powi(2);
         let mut occupied = HashSet::new();
-        let mut logarithms = WEIGHTS_OF_SHARED.map(|_| 0.0);
+        // By weight: a logarithm, and what it does not have yet, since one of many factors together
+        // takes less time.
+        let mut bounds = WEIGHTS_OF_SHARED.map(|_| (0.0, 1.0));
         for position in positions.clone() {
             let chance = (LEFT_TO_SELF_HITS + of_cube * occupied.len() as f64).min(1.0);
             // Half a unit aside: rounded positions lie on no cube's face.
             let cube = ((position + 0.5 * unit) / edge).floor().to_array();
             let is_shared = !occupied.insert(packed(cube));
-            for (logarithm, weight) in logarithms.iter_mut().zip(WEIGHTS_OF_SHARED) {
-                *logarithm += (chance * weight.exp_m1()).ln_1p();
+            for ((bound, weight), growth) in bounds.iter_mut().zip(WEIGHTS_OF_SHARED).zip(growth) {
+                let (logarithm, factor) = bound;
+                *factor *= 1.0 + chance * growth;
                 *logarithm -= if is_shared { weight } else { 0.0 };
+                if *factor > 1e200 {
+                    *logarithm += factor.ln();
+                    *factor = 1.0;
+                }
+            }
+            // No photon is rarer than certain: from here on, bounds only grow.
+            let is_low = |(logarithm, factor): &(f64, f64)| logarithm + factor.ln() < smallest;
+            if chance == 1.0 && !bounds.iter().any(is_low) {
+                break;
             }
         }
-        smallest = logarithms.into_iter().fold(smallest, f64::min);
+        let all = bounds.into_iter().map(|(logarithm, factor)| logarithm + factor.ln());
+        smallest = all.fold(smallest, f64::min);
     }
     (smallest.exp() * (EDGES.len() * WEIGHTS_OF_SHARED.len()) as f64).min(1.0)
 }

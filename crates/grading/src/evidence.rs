@@ -36,8 +36,13 @@ pub(crate) trait Evidence {
     fn means(&self, known: &Known<Self::Signature>, emitted: f64) -> Vec<f64>;
     /// What is expected of the cells.
     fn expect_cells(&self, known: &Known<Self::Signature>, emitted: f64) -> Expected;
-    /// What is expected of the facets.
-    fn expect_facets(&self, known: &Known<Self::Signature>, emitted: f64) -> Expected;
+    /// What is expected of the facets, where that of the cells is `cells`.
+    fn expect_facets(
+        &self,
+        known: &Known<Self::Signature>,
+        emitted: f64,
+        cells: &Expected,
+    ) -> Expected;
     /// Whether nothing but the counts can rule `hypothesis` out.
     fn may_be(&self, hypothesis: &Hypothesis) -> bool;
 
@@ -68,9 +73,9 @@ pub(crate) trait Evidence {
     fn joined(&self) -> Joined {
         let reference = &self.table().fair[0];
         let emitted = self.fit_size(reference);
-        let facets = self.expect_facets(reference, emitted);
-        let alike = vec![0; facets.mean.len()];
         let cells = self.expect_cells(reference, emitted);
+        let facets = self.expect_facets(reference, emitted, &cells);
+        let alike = vec![0; facets.mean.len()];
         Joined {
             facets: facets.joined(&alike, LEAST_DEVIATIONS),
             cells: cells.joined(self.facets_of_cells(), LEAST_DEVIATIONS),

@@ -66,9 +66,8 @@ impl Expected {
     pub fn grouped(&self, groups: &Groups) -> Self {
         let mut covariance = vec![vec![0.0; groups.count]; groups.count];
         for (row, group) in self.covariance.iter().zip(&groups.of) {
-            for (entry, other) in row.iter().zip(&groups.of) {
-                covariance[*group][*other] += entry;
-            }
+            let sums = &mut covariance[*group];
+            row.iter().zip(&groups.of).for_each(|(entry, other)| sums[*other] += entry);
         }
         Self {
             mean: groups.sums(&self.mean),
@@ -149,7 +148,7 @@ pub fn fit_size(
     expect: impl Fn(f64) -> Expected,
 ) -> f64 {
     let found: f64 = counts.iter().sum();
-    let mut size = bisect(SIZES, |size| means(size).iter().sum::<f64>() < found);
+    let mut size = size_with_total(found, |size| means(size).iter().sum());
     for _ in 0..if found < FEW { 0 } else { STEPS } {
         let expected = expect(size);
         let law = expected.law(false);
@@ -161,6 +160,34 @@ pub fn fit_size(
         size = (size * step.clamp(-1.0, 1.0).exp()).clamp(SIZES[0], SIZES[1]);
     }
     size
+}
+
+/// For which number of photons emitted `total`, which grows with it, is `found`: by the method of
+/// Ridders, exact where `total` is a power of the number.
+pub fn size_with_total(found: f64, total: impl Fn(f64) -> f64) -> f64 {
+    let at = |place: f64| (place, total(place.exp()) - found);
+    let [mut low, mut high] = SIZES.map(|size| at(size.ln()));
+    if !(low.1 < 0.0 && high.1 > 0.0) {
+        return if high.1 <= 0.0 { SIZES[1] } else { SIZES[0] };
+    }
+    let mut last = low.0;
+    loop {
+        let middle = at(0.5 * (low.0 + high.0));
+        let turn = middle.1 / (middle.1 * middle.1 - low.1 * high.1).sqrt();
+        let next = at(middle.0 - (middle.0 - low.0) * turn);
+        // Each step is about the square of the one before.
+        if (next.0 - last).abs() < 1e-6 || high.0 - low.0 < 1e-6 {
+            return next.0.exp();
+        }
+        last = next.0;
+        for it in [middle, next] {
+            if it.1 < 0.0 && it.0 > low.0 {
+                low = it;
+            } else if it.1 >= 0.0 && it.0 < high.0 {
+                high = it;
+            }
+        }
+    }
 }
 
 /// Where between the positive ends of `range` `is_low` ceases to hold, in proportion.

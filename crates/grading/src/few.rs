@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::limits::few::{EMITTED, PIECE, SEED};
+use super::limits::few::{EMITTED, SEED};
 use super::limits::{FEW_PHOTONS, WORTH};
 use super::places::Places;
 use super::statistics::corrected;
@@ -25,20 +25,18 @@ impl StoredByPaths {
     pub(super) fn new(reading: &Hypothesis, places: &Places, max_bounces: i32) -> Self {
         let simulation = Simulation::new(reading.variation, SEED, EMITTED, max_bounces);
         let mut of_classes = vec![BTreeMap::new(); places.facets.len() + 1];
-        for start in (0..EMITTED).step_by(PIECE as usize) {
-            let records = simulation.trace(start..EMITTED.min(start + PIECE));
-            for path in records.chunk_by(|a, b| a.photon == b.photon) {
-                let mut stored = vec![0; of_classes.len()];
-                for record in path {
-                    let place = places.place(record.position.as_dvec3());
-                    let class = places.class_and_cell(place).map(|(class, _)| class);
-                    if let Some(stored) = class.and_then(|class| stored.get_mut(class)) {
-                        *stored += 1;
-                    }
+        let records = simulation.trace(0..EMITTED);
+        for path in records.chunk_by(|a, b| a.photon == b.photon) {
+            let mut stored = vec![0; of_classes.len()];
+            for record in path {
+                let place = places.place(record.position.as_dvec3());
+                let class = places.class_and_cell(place).map(|(class, _)| class);
+                if let Some(stored) = class.and_then(|class| stored.get_mut(class)) {
+                    *stored += 1;
                 }
-                for (paths, stored) in of_classes.iter_mut().zip(stored) {
-                    *paths.entry((stored, path.len())).or_insert(0.0) += 1.0;
-                }
+            }
+            for (paths, stored) in of_classes.iter_mut().zip(stored) {
+                *paths.entry((stored, path.len())).or_insert(0.0) += 1.0;
             }
         }
         for paths in &mut of_classes {

@@ -3,8 +3,6 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use rayon::prelude::*;
-
 use super::bounces::{BOUNCES_BY_PLACE, bounce_findings};
 use super::direct::{is_ruled_out, shows_direct};
 use super::evidence::Evidence as _;
@@ -42,7 +40,8 @@ pub struct Judgment {
     pub emitted: f64,
 }
 
-/// All that lists are held against.
+/// All that lists are held against. What is made when it is first needed is made on one thread: one
+/// of several that share it would grade another submission meanwhile, and wait for itself.
 #[derive(Clone, Debug)]
 pub struct Expectations {
     /// The scene's places.
@@ -73,7 +72,7 @@ impl Expectations {
         let of_reading = |known: &Known<Signature>| {
             StoredByPaths::new(&known.hypothesis, places, signatures.max_bounces)
         };
-        paths.get_or_init(|| signatures.fair.par_iter().map(of_reading).collect())
+        paths.get_or_init(|| signatures.fair.iter().map(of_reading).collect())
     }
 
     /// The reference's signature.
@@ -169,3 +168,34 @@ pub fn judge(
 
 /// What is to be done where a plain fault is told before, and no misreading explains the counts.
 const ECHO: &str = "No misreading is known for it: it may be an echo of the fault above.";
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    use photon_mapping::assignment8::{MAX_PHOTON_BOUNCES, create_scene};
+    use rayon::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn many_threads_may_need_the_same_at_once() {
+        let (done, is_done) = channel();
+        std::thread::spawn(move || {
+            let places = Places::new(&create_scene());
+            let signatures = Signatures::of_limit(&places, MAX_PHOTON_BOUNCES);
+            let expectations = Expectations::new(places, signatures);
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(8).build().unwrap();
+            pool.install(|| {
+                (0..64).into_par_iter().for_each(|at| match at % 3 {
+                    0 => drop(expectations.pictures().shifted()),
+                    1 => drop(expectations.paths()),
+                    _ => drop(expectations.pictures()),
+                });
+            });
+            done.send(()).unwrap();
+        });
+        is_done.recv_timeout(Duration::from_secs(60)).expect("no thread waits for itself");
+    }
+}

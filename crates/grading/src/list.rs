@@ -83,7 +83,7 @@ impl Evidence for OfList<'_> {
         known.signature.of_cells(&signatures.correlation, &places.leeway_of_cells(), emitted)
     }
 
-    fn expect_facets(&self, known: &Known<Signature>, emitted: f64) -> Expected {
+    fn expect_facets(&self, known: &Known<Signature>, emitted: f64, _: &Expected) -> Expected {
         known.signature.of_classes(emitted)
     }
 

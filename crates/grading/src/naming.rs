@@ -96,9 +96,11 @@ fn hold_against<E: Evidence>(
 ) -> Explanation {
     let emitted = number.unwrap_or_else(|| evidence.fit_size(known));
     let is_free = number.is_none();
-    let cells = evidence.expect_cells(known, emitted).grouped(&joined.cells).law(is_free);
+    let cells = evidence.expect_cells(known, emitted);
+    let facets = evidence.expect_facets(known, emitted, &cells);
+    let cells = cells.grouped(&joined.cells).law(is_free);
     let cells = cells.fit(&joined.cells.sums(evidence.of_cells()));
-    let facets = evidence.expect_facets(known, emitted).grouped(&joined.facets).law(is_free);
+    let facets = facets.grouped(&joined.facets).law(is_free);
     let facets = facets.fit(&joined.facets.sums(&evidence.of_facets()));
     let of_bounces = evidence.of_bounces(known, emitted);
     let p_values = [Some(facets.p_value), Some(cells.p_value), of_bounces];
@@ -167,7 +169,7 @@ fn elsewhere<E: Evidence>(evidence: &E, joined: &Joined, best: &Explanation) -> 
     if lengths.is_empty() {
         return of_cells;
     }
-    let facets = evidence.expect_facets(known, best.emitted).grouped(&joined.facets);
+    let facets = evidence.expect_facets(known, best.emitted, &cells).grouped(&joined.facets);
     let lengths = lengths.iter().map(|means| joined.facets.sums(means));
     let of_facets = joined.facets.sums(&evidence.of_facets());
     0.5 * (of_cells + facets.law(is_free).elsewhere(&of_facets, lengths))

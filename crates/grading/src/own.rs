@@ -1,9 +1,8 @@
 //! Lists and pictures that this program itself wrote: anybody can hand in its right answer.
 
-use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use glam::{IVec3, Vec3};
+use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use variants::run::Run;
@@ -16,8 +15,8 @@ struct Own {
     seeds: Vec<u64>,
     /// Where each photon lies, and the place of its seed in `seeds`.
     photons: Vec<(Vec3, usize)>,
-    /// The photons near each cell.
-    near: HashMap<IVec3, Vec<usize>>,
+    /// Cells, in order, each with the place in `photons` of one that is near it.
+    near: Vec<([i32; 3], usize)>,
 }
 
 /// The seed of this program's run that `records` are of, or a part of, or hardly moved.
@@ -44,21 +43,23 @@ impl Own {
         seeds.sort_unstable();
         seeds.dedup();
         let mut photons = Vec::new();
+        let run = Run::handout(0, EMITTED);
+        let mut lanes = run.lanes().expect("lanes trace the handout's scene");
         for (at, seed) in seeds.iter().enumerate() {
-            let records = Run::handout(*seed, EMITTED).trace_piece(0..EMITTED);
+            lanes.set_seed(*seed);
+            let records = lanes.trace_piece(0..EMITTED);
             photons.extend(records.iter().map(|record| (record.position, at)));
         }
-        let mut near: HashMap<IVec3, Vec<usize>> = HashMap::new();
+        let mut near = Vec::new();
         for (at, (position, _)) in photons.iter().enumerate() {
             let (low, high) = (cell(position - NEAR), cell(position + NEAR));
-            for x in low.x..=high.x {
-                for y in low.y..=high.y {
-                    for z in low.z..=high.z {
-                        near.entry(IVec3::new(x, y, z)).or_default().push(at);
-                    }
+            for x in low[0]..=high[0] {
+                for y in low[1]..=high[1] {
+                    near.extend((low[2]..=high[2]).map(|z| ([x, y, z], at)));
                 }
             }
         }
+        near.sort_unstable();
         Self { seeds, photons, near }
     }
 
@@ -66,7 +67,9 @@ impl Own {
     fn near_to(&self, records: &[PhotonRecord]) -> Vec<Option<bool>> {
         let mut is_found = vec![Some(false); self.photons.len()];
         for record in records.iter().filter(|record| record.position.is_finite()) {
-            for at in self.near.get(&cell(record.position)).into_iter().flatten() {
+            let cell = cell(record.position);
+            let first = self.near.partition_point(|(other, _)| *other < cell);
+            for (_, at) in self.near[first..].iter().take_while(|(other, _)| *other == cell) {
                 let distance = (self.photons[*at].0 - record.position).abs().max_element();
                 if distance <= NEAR {
                     is_found[*at] = Some(true);
@@ -108,8 +111,8 @@ impl Own {
     }
 }
 
-fn cell(position: Vec3) -> IVec3 {
-    (position / (2.0 * NEAR)).floor().as_ivec3()
+fn cell(position: Vec3) -> [i32; 3] {
+    (position / (2.0 * NEAR)).floor().as_ivec3().to_array()
 }
 
 #[cfg(test)]

@@ -4,8 +4,7 @@
 //! What was made up has nothing to do with the light: it lies elsewhere, or evenly.
 
 use super::evidence::Evidence;
-use super::expected::bisect;
-use super::limits::expected::SIZES;
+use super::expected::size_with_total;
 use super::limits::{CROWDED, EVEN, FEWEST_PLACES, MADE_UP, MANY_PLACES, MORE_EVEN, ONE_SURFACE};
 use super::verdict::{Finding, Verdict, Weight};
 
@@ -105,7 +104,7 @@ fn to_nearest<E: Evidence>(evidence: &E) -> f64 {
     let table = evidence.table();
     let to_each = table.fair.iter().chain(table.faults()).map(|known| {
         let means = |emitted| evidence.means(known, emitted);
-        let emitted = bisect(SIZES, |emitted| means(emitted).iter().sum::<f64>() < found);
+        let emitted = size_with_total(found, |emitted| means(emitted).iter().sum());
         to_move(counts, &means(emitted))
     });
     (to_each.fold(found, f64::min) + strays) / (found + strays)

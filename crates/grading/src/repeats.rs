@@ -78,11 +78,17 @@ pub(super) fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat
         let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBORS);
         let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
         let distance = |other: u32| position(other).distance_squared(position(*index));
-        let closest = near.map(|other| distance(other.1)).reduce(f64::min);
+        let mut closest = f64::INFINITY;
+        for (_, other) in near {
+            closest = closest.min(distance(*other));
+            if closest == 0.0 {
+                break;
+            }
+        }
         repeats[*index as usize] = match closest {
-            Some(0.0) => Repeat::Exactly,
-            Some(squared) if squared <= BY_ROUNDING.powi(2) => Repeat::ByRounding,
-            Some(squared) if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
+            0.0 => Repeat::Exactly,
+            squared if squared <= BY_ROUNDING.powi(2) => Repeat::ByRounding,
+            squared if squared <= SAME_PLACE.powi(2) => Repeat::Closely,
             _ => Repeat::No,
         };
     }

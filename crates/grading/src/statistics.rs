@@ -139,36 +139,48 @@ pub fn corrected(p_value: f64, tests: usize) -> f64 {
     -(tests.max(1) as f64 * (-p_value.min(1.0)).ln_1p()).exp_m1()
 }
 
-/// The lower triangle L of a covariance L L^T.
+/// The lower triangle L of a covariance L L^T, column by column: each from the diagonal down.
+///
+/// Of a column, each number is independent of the others, so that a processor works on several.
 #[derive(Clone, Debug)]
 struct Cholesky(Matrix);
 
 impl Cholesky {
     fn new(covariance: &Matrix) -> Self {
-        let mut lower = covariance.clone();
-        for i in 0..lower.len() {
-            for j in 0..=i {
-                let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-                let rest = covariance[i][j] - sum;
-                // Positive but for rounding, since every variance has been given a little more.
-                lower[i][j] = if i == j { rest.max(1e-9).sqrt() } else { rest / lower[j][j] };
+        let size = covariance.len();
+        // The sums so far, of what is on the left of each number.
+        let mut columns: Matrix = (0..size).map(|column| vec![0.0; size - column]).collect();
+        for at in 0..size {
+            let (done, rest) = columns.split_at_mut(at + 1);
+            let column = &mut done[at];
+            // Positive but for rounding, since every variance has been given a little more.
+            let diagonal = (covariance[at][at] - column[0]).max(1e-9).sqrt();
+            for (row, sum) in column.iter_mut().enumerate() {
+                *sum = (covariance[at + row][at] - *sum) / diagonal;
+            }
+            column[0] = diagonal;
+            for (below, sums) in (1..).zip(rest) {
+                let factor = column[below];
+                sums.iter_mut().zip(&column[below..]).for_each(|(sum, it)| *sum += it * factor);
             }
         }
-        Self(lower)
+        Self(columns)
     }
 
     /// L^-1 `vector`: independent numbers of variance 1, where `vector` has the covariance.
     fn whiten(&self, vector: &[f64]) -> Vec<f64> {
-        let mut whitened: Vec<f64> = Vec::with_capacity(vector.len());
-        for (row, value) in self.0.iter().zip(vector) {
-            let sum: f64 = row.iter().zip(&whitened).map(|(a, b)| a * b).sum();
-            whitened.push((value - sum) / row[whitened.len()]);
+        let mut whitened = vec![0.0; vector.len()];
+        for (at, column) in self.0.iter().enumerate() {
+            // So far, it is the sum of what is on the left.
+            let value = (vector[at] - whitened[at]) / column[0];
+            whitened[at..].iter_mut().zip(column).for_each(|(sum, it)| *sum += it * value);
+            whitened[at] = value;
         }
         whitened
     }
 
     fn log_determinant(&self) -> f64 {
-        self.0.iter().enumerate().map(|(at, row)| 2.0 * row[at].ln()).sum()
+        self.0.iter().map(|column| 2.0 * column[0].ln()).sum()
     }
 }
 

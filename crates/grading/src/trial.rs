@@ -117,7 +117,8 @@ fn part<E: Evidence>(
 ) -> Vec<Test> {
     let words = E::WORDS;
     let of_facets = evidence.of_facets();
-    let facets = evidence.expect_facets(known, emitted);
+    let cells = evidence.expect_cells(known, emitted);
+    let facets = evidence.expect_facets(known, emitted, &cells);
     let unit = words.unit;
     let mut tests = Vec::new();
     let mut test = |[check, expected]: [&'static str; 2], p_value, found| {
@@ -145,7 +146,6 @@ fn part<E: Evidence>(
     };
     test(words.facets, p_value, found);
 
-    let cells = evidence.expect_cells(known, emitted);
     let law = cells.grouped(&joined.cells).law(is_free);
     let of_groups = joined.cells.sums(evidence.of_cells());
     let (p_value, found) = match joined.cells.count {

@@ -136,9 +136,10 @@ fn noise_in_a_picture_gets_no_points_and_dots_do() {
     };
     for kind in kinds(&EXPECTATIONS) {
         let red = dots(kind.points(20_000, 5));
-        let is_enough = red.iter().filter(|is_red| **is_red).count() >= 1000;
-        let gets_none = !gets_points(&red, None) && !gets_points(&red, Some(2e5));
-        assert!(gets_none || !is_enough, "{}", kind.name);
+        if red.iter().filter(|is_red| **is_red).count() >= 1000 {
+            let gets_none = !gets_points(&red, None) && !gets_points(&red, Some(2e5));
+            assert!(gets_none, "{}", kind.name);
+        }
     }
     let patches = [(20, 10, 6), (20, 40, 2), (20, 59, 2), (20, 400, 2)];
     let large = [(80, 500, 2), (80, 1000, 2), (80, 10_000, 2)];

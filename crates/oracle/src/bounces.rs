@@ -138,41 +138,38 @@ fn scale_to(weights: &mut [f64], nodes: &[QuadratureNode], exact: &[f64]) {
 /// Sum over 2 <= j < k <= most of E[I_j,a I_k,b] = a_j . (g_b + A g_b + ... + A^(most - j - 1) g_b)
 /// over the nodes of a.
 fn pairs(nodes: &[QuadratureNode], stages: &[Vec<f64>], surface_of: &[usize]) -> Vec<Vec<f64>> {
+    /// So many surfaces b are followed at once: their numbers lie side by side.
+    const ABREAST: usize = 4;
     let surfaces = surface_of.iter().max().map_or(0, |&highest| highest + 1);
     let mut pairs = vec![vec![0.0; surfaces]; surfaces];
-    let first: Vec<Vec<f64>> = nodes
-        .iter()
-        .map(|node| {
-            let mut sums = vec![0.0; surfaces];
-            node.to_plates
-                .iter()
-                .zip(surface_of)
-                .for_each(|(chance, &surface)| sums[surface] += chance);
+    for start in (0..surfaces).step_by(ABREAST) {
+        let to_surfaces = |node: &QuadratureNode| {
+            let mut sums = [0.0; ABREAST];
+            for (chance, surface) in node.to_plates.iter().zip(surface_of) {
+                if let Some(sum) = surface.checked_sub(start).and_then(|at| sums.get_mut(at)) {
+                    *sum += chance;
+                }
+            }
             sums
-        })
-        .collect();
-    let mut further = first.clone();
-    for weights in stages.iter().rev().skip(1) {
-        for ((node, weight), chances) in nodes.iter().zip(weights).zip(&further) {
-            let row = &mut pairs[surface_of[node.plate]];
-            row.iter_mut().zip(chances).for_each(|(sum, chance)| *sum += weight * chance);
-        }
-        further = nodes
-            .par_iter()
-            .zip(&first)
-            .map(|(node, first)| {
-                let mut sums = first.clone();
+        };
+        let first: Vec<[f64; ABREAST]> = nodes.iter().map(to_surfaces).collect();
+        let mut further = first.clone();
+        for weights in stages.iter().rev().skip(1) {
+            for ((node, weight), chances) in nodes.iter().zip(weights).zip(&further) {
+                let row = &mut pairs[surface_of[node.plate]][start..];
+                row.iter_mut().zip(chances).for_each(|(sum, chance)| *sum += weight * chance);
+            }
+            let next = |(node, first): (&QuadratureNode, &[f64; ABREAST])| {
+                let mut sums = *first;
                 for (cell, shares) in &node.row {
-                    for i in 0..3 {
-                        let chances = &further[3 * *cell as usize + i];
-                        sums.iter_mut()
-                            .zip(chances)
-                            .for_each(|(sum, chance)| *sum += shares[i] * chance);
+                    for (share, chances) in shares.iter().zip(&further[3 * *cell as usize..]) {
+                        sums.iter_mut().zip(chances).for_each(|(sum, it)| *sum += share * it);
                     }
                 }
                 sums
-            })
-            .collect();
+            };
+            further = nodes.par_iter().zip(&first).map(next).collect();
+        }
     }
     pairs
 }

@@ -212,7 +212,22 @@ fn mesh_of(scene: &PlateScene, most: usize, widths: Option<&'static [f64]>) -> M
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixtures::{FLOOR, RIGHT_WALL, SHORT_BOX, TALL_BOX, handout};
+    use crate::fixtures::{FLOOR, RIGHT_WALL, SHORT_BOX, TALL_BOX, cube, handout};
+
+    #[test]
+    fn without_absorption_a_path_ends_at_the_handouts_limit() {
+        let light = [Emitter { position: DVec3::ZERO, share: 1.0 }];
+        // In a cube any mesh will do, and each of its nodes is seen a thousand times.
+        let settings = SolveSettings { cells: [100, 300], ..SolveSettings::of(Accuracy::Quick) };
+        let result = expect_with(&cube(1.0), &light, &settings);
+        assert_eq!(result.bounces(), 1001);
+        let last = result.total(1001);
+        assert!((last.value - 1.0).abs() <= last.error + 1e-9, "{last:?}");
+        // Every path stores exactly 1000 hits. The mean square is a million.
+        assert!(result.variance().value.abs() < 100.0, "{:?}", result.variance());
+        let numbers = result.facets.iter().flat_map(|facet| facet.hits.iter().chain(&facet.error));
+        assert!(numbers.copied().all(f64::is_finite));
+    }
 
     /// N2 the other way round: gathered on the facets it hits, instead of sent from those first
     /// hit. What the two share is visibility and the closed form factor; points, cuts and the

@@ -80,6 +80,7 @@ pub const MOST_TRIANGLES: usize = 128;
 #[derive(Clone, Debug)]
 pub struct LaneTracer<'renderer> {
     renderer: &'renderer PhotonMappingRenderer,
+    seed: u64,
     width: Width,
     corners: SharedCorners,
     surfaces: Vec<LaneSurface>,
@@ -153,12 +154,19 @@ impl<'renderer> LaneTracer<'renderer> {
         let outlook = |light: &PointLight| Outlook::new(scene, light.position, &reflection);
         Some(Self {
             renderer,
+            seed: renderer.seed,
             width,
             corners: SharedCorners::new(scene),
             surfaces,
             offset,
             outlooks: scene.lights().iter().map(outlook).collect(),
         })
+    }
+
+    /// Traces with `seed` from now on. To find out anew what lights see takes longer than thousands
+    /// of photons.
+    pub fn set_seed(&mut self, seed: u64) {
+        self.seed = seed;
     }
 
     /// Traces the photons numbered `photons` on this thread: the records of

@@ -21,9 +21,8 @@ pub(crate) mod few {
     /// With so many photons emitted: 20,000 are stored, and what one in a thousand of them does is
     /// known within a quarter.
     pub(crate) const EMITTED: u64 = 400_000;
-    /// Their seed, and how many are traced at once.
+    /// Their seed.
     pub(crate) const SEED: u64 = 0x9_2020;
-    pub(crate) const PIECE: u64 = 1 << 16;
 }
 
 /// Lists in the model's axes.

@@ -95,8 +95,8 @@ impl Evidence for OfPicture<'_> {
         expected
     }
 
-    fn expect_facets(&self, known: &Known<PictureSignature>, emitted: f64) -> Expected {
-        self.expect_cells(known, emitted).grouped(&self.by_facet())
+    fn expect_facets(&self, _: &Known<PictureSignature>, _: f64, cells: &Expected) -> Expected {
+        cells.grouped(&self.by_facet())
     }
 
     fn may_be(&self, _: &Hypothesis) -> bool {

@@ -69,13 +69,21 @@ pub fn expect(
     for overlap in &view.overlaps {
         let [a, b] = overlap.patches;
         let (both, common) = (rates[a] + rates[b], (rates[a] * rates[b]).sqrt());
-        let mut sum = 0.0;
-        for (at, pairs) in overlap.pairs.iter().enumerate().filter(|(_, pairs)| **pairs > 0) {
-            let share = ((at as f64 + 0.5) / SHARES as f64).min(1.0);
-            sum += f64::from(*pairs) * (common * share).exp_m1();
+        // exp(x + y) - 1 of exp(x) - 1 and exp(y) - 1: shares are half a step apart.
+        let add = |x: f64, y: f64| x + y + x * y;
+        let half = (0.5 * common / SHARES as f64).exp_m1();
+        let (step, mut of_share, mut sum) = (add(half, half), half, 0.0);
+        for pairs in &overlap.pairs[..SHARES] {
+            sum += f64::from(*pairs) * of_share;
+            of_share = add(of_share, step);
         }
-        let (a, b) = (view.patches[a].cell, view.patches[b].cell);
-        expected.covariance[a][b] += (-both).exp() * sum;
+        sum += f64::from(overlap.pairs[SHARES]) * common.exp_m1();
+        let together = (-both).exp() * sum;
+        let cells = [view.patches[a].cell, view.patches[b].cell];
+        expected.covariance[cells[0]][cells[1]] += together;
+        if a != b {
+            expected.covariance[cells[1]][cells[0]] += together;
+        }
     }
     // The slope is the number of photons times the pixels that one more would turn red.
     // Of the pairs of a facet, each of its cells has a part like its part of the photons.

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 use image::RgbImage;
-use rayon::prelude::*;
 
 use crate::limits::view::{NEIGHBORS, PATCH, SHARES};
 use crate::places::{MARGIN, Place, Places};
-use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_renderer, create_scene};
+use photon_mapping::assignment8::{HEIGHT, WIDTH, create_camera, create_scene};
+use photon_mapping::rendering::backward_renderer::compute_sample_color;
 use photon_mapping::rendering::image_writer::to_bytes;
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 use photon_mapping::scene::camera::PerspectiveCamera;
@@ -34,7 +34,8 @@ pub struct Patch {
     pub measured: u32,
 }
 
-/// Pairs of pixels, one in each of two patches, whose cubes overlap.
+/// Pairs of pixels, one in each of two patches, of which the second is no lower in number, whose
+/// cubes overlap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
     /// The patches.
@@ -85,9 +86,8 @@ fn project(camera: &PerspectiveCamera, point: Vec3) -> Option<[f32; 2]> {
 
 /// What every pixel shows, with rays through (column + shift, row + shift), in pixels.
 fn see(camera: &PerspectiveCamera, shift: f32) -> Vec<Seen> {
-    let renderer = create_renderer(create_scene());
-    let scene = &renderer.stored_scene;
-    let facet_of_triangle = model::facets::facet_of_triangles(scene);
+    let scene = create_scene();
+    let facet_of_triangle = model::facets::facet_of_triangles(&scene);
     let see = |pixel: usize| {
         let (column, row) = (pixel % WIDTH as usize, pixel / WIDTH as usize);
         let ray = camera.generate_ray_for_normalized_coordinates(
@@ -95,12 +95,14 @@ fn see(camera: &PerspectiveCamera, shift: f32) -> Vec<Seen> {
             (row as f32 + shift) / HEIGHT as f32,
         );
         let mut state = IntersectionState::new();
-        let is_met = scene.trace(&ray, Some(&mut state));
-        let seen = is_met
-            .then(|| (state.intersection_point(), facet_of_triangle[state.intersected_primitive]));
-        (seen, to_bytes(renderer.compute_sample_color(&ray)))
+        if !scene.trace(&ray, Some(&mut state)) {
+            return (None, to_bytes(Vec3::ZERO));
+        }
+        let facet = facet_of_triangle[state.intersected_primitive];
+        let direct = to_bytes(compute_sample_color(&scene, &state));
+        (Some((state.intersection_point(), facet)), direct)
     };
-    (0..PIXELS).into_par_iter().map(see).collect()
+    (0..PIXELS).map(see).collect()
 }
 
 impl View {
@@ -238,6 +240,9 @@ impl View {
     }
 
     fn find_overlaps(&self) -> Vec<Overlap> {
+        let none = [0; SHARES + 1];
+        // Nearly all pairs are of one patch.
+        let mut within = vec![none; self.patches.len()];
         let mut pairs: BTreeMap<[usize; 2], [u32; SHARES + 1]> = BTreeMap::new();
         for pixel in 0..PIXELS {
             let Some(patch) = self.patch(pixel) else { continue };
@@ -254,19 +259,25 @@ impl View {
                     }
                     let other = row as usize * WIDTH as usize + column as usize;
                     let Some(other_patch) = self.patch(other) else { continue };
-                    if self.patches[other_patch].facet_in_sight != facet {
+                    let is_counted = other_patch < patch;
+                    if is_counted || self.patches[other_patch].facet_in_sight != facet {
                         continue;
                     }
                     let share = self.share(pixel, other, patch);
                     if share > 0.0 {
                         let at =
                             if other == pixel { SHARES } else { (share * SHARES as f64) as usize };
-                        pairs.entry([patch, other_patch]).or_insert([0; SHARES + 1])
-                            [at.min(SHARES)] += 1;
+                        let pairs = match other_patch == patch {
+                            true => &mut within[patch],
+                            false => pairs.entry([patch, other_patch]).or_insert(none),
+                        };
+                        pairs[at.min(SHARES)] += 1;
                     }
                 }
             }
         }
+        let within = within.into_iter().enumerate().filter(|(_, pairs)| *pairs != none);
+        pairs.extend(within.map(|(patch, pairs)| ([patch, patch], pairs)));
         pairs.into_iter().map(|(patches, pairs)| Overlap { patches, pairs }).collect()
     }
 }

@@ -15,7 +15,7 @@ impl<D: FnMut(Stage, usize)> Wave<'_, D> {
         let landed = std::mem::replace(&mut self.landed, Vec::with_capacity(2 * ENOUGH_LANDED));
         let mut numbers =
             std::mem::replace(&mut self.numbers, Vec::with_capacity(2 * ENOUGH_LANDED));
-        draws::fill(self.tracer.width, self.tracer.renderer.seed, &mut numbers);
+        draws::fill(self.tracer.width, self.tracer.seed, &mut numbers);
         (self.done)(Stage::Numbers, numbers.len());
         for (arrival, draws) in landed.iter().zip(&numbers) {
             let surface = &self.tracer.surfaces[arrival.triangle as usize];

@@ -20,7 +20,7 @@ impl<D: FnMut(Stage, usize)> Wave<'_, D> {
         count: usize,
         emission: &mut LaneEmission<{ emission::GROUP }>,
     ) {
-        let seed = self.tracer.renderer.seed;
+        let seed = self.tracer.seed;
         self.tracer.width.run(Emit { seed, first, emission });
         emission.cell[count..].fill(NOWHERE);
         self.sort_out(emission, |lane| first.wrapping_add(lane as u32));
@@ -29,7 +29,7 @@ impl<D: FnMut(Stage, usize)> Wave<'_, D> {
     /// Goes on with the rejection loops of the first `count` photons of `queue`.
     fn emit_again(&mut self, queue: &Queue, count: usize) {
         let mut emission = LaneEmission::default();
-        let (seed, photons) = (self.tracer.renderer.seed, &queue.map(|photon| photon.draws.photon));
+        let (seed, photons) = (self.tracer.seed, &queue.map(|photon| photon.draws.photon));
         self.tracer.width.run(EmitAgain { seed, photons, emission: &mut emission });
         for lane in 0..count {
             if emission.drawn[lane] == 0 {
