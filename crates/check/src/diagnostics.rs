@@ -7,6 +7,7 @@ use grading::text::printable;
 use serde::Serialize;
 
 use crate::error::CheckError;
+use crate::headers::files_below;
 use crate::sandbox::{Exit, RunOutcome};
 use crate::workshop::Workshop;
 
@@ -104,14 +105,14 @@ impl Workshop<'_> {
         })
     }
 
+    /// Whether a header of the student's stands where the stand-in has its own: the harness then
+    /// reads it.
     pub(crate) fn has_own_headers(&self) -> bool {
-        self.originals.iter().any(|(copies, _)| {
-            fs::read_dir(copies).is_ok_and(|mut entries| {
-                entries.any(|entry| {
-                    entry.is_ok_and(|entry| entry.path().extension().is_some_and(|e| e != "cpp"))
-                })
-            })
-        })
+        let submission = self.path().join("submission");
+        let standin = self.kit.path().join("standin");
+        let files = files_below(&submission);
+        let mut places = files.iter().filter_map(|file| file.strip_prefix(&submission).ok());
+        places.any(|place| standin.join(place).exists())
     }
 
     /// The student's name of the file that the compiler knows as `path`.
