@@ -12,7 +12,7 @@ use crate::sandbox::{Exit, RunOutcome};
 use crate::workshop::Workshop;
 
 /// Why a submission does not build.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct BuildError {
     /// The student's file, by the name they know.
     pub file: Option<String>,
@@ -30,14 +30,7 @@ pub struct BuildError {
 
 impl BuildError {
     pub(crate) fn plain(message: String) -> Self {
-        Self {
-            file: None,
-            line: None,
-            message,
-            missing: None,
-            is_in_changed_framework: false,
-            missing_headers: Vec::new(),
-        }
+        Self { message, ..Self::default() }
     }
 
     /// In one line.
