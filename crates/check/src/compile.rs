@@ -74,7 +74,7 @@ impl Workshop<'_> {
         source: &Path,
         is_harness: bool,
     ) -> Result<Result<Object, BuildError>, CheckError> {
-        let mut error = BuildError::plain(String::new());
+        let mut error = BuildError::default();
         for standard in STANDARDS {
             match self.try_once(&Invocation { source, is_harness, standard })? {
                 Ok(object) => return Ok(Ok(object)),

@@ -7,11 +7,12 @@ use grading::text::printable;
 use serde::Serialize;
 
 use crate::error::CheckError;
+use crate::headers::files_below;
 use crate::sandbox::{Exit, RunOutcome};
 use crate::workshop::Workshop;
 
 /// Why a submission does not build.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct BuildError {
     /// The student's file, by the name they know.
     pub file: Option<String>,
@@ -29,14 +30,7 @@ pub struct BuildError {
 
 impl BuildError {
     pub(crate) fn plain(message: String) -> Self {
-        Self {
-            file: None,
-            line: None,
-            message,
-            missing: None,
-            is_in_changed_framework: false,
-            missing_headers: Vec::new(),
-        }
+        Self { message, ..Self::default() }
     }
 
     /// In one line.
@@ -104,14 +98,14 @@ impl Workshop<'_> {
         })
     }
 
+    /// Whether a header of the student's stands where the stand-in has its own: the harness then
+    /// reads it.
     pub(crate) fn has_own_headers(&self) -> bool {
-        self.originals.iter().any(|(copies, _)| {
-            fs::read_dir(copies).is_ok_and(|mut entries| {
-                entries.any(|entry| {
-                    entry.is_ok_and(|entry| entry.path().extension().is_some_and(|e| e != "cpp"))
-                })
-            })
-        })
+        let submission = self.path().join("submission");
+        let standin = self.kit.path().join("standin");
+        let files = files_below(&submission);
+        let mut places = files.iter().filter_map(|file| file.strip_prefix(&submission).ok());
+        places.any(|place| standin.join(place).exists())
     }
 
     /// The student's name of the file that the compiler knows as `path`.

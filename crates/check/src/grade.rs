@@ -123,10 +123,7 @@ fn section(verdict: &sections::SectionVerdict) -> Vec<Finding> {
     let mut findings: Vec<_> = verdict
         .faults
         .iter()
-        .map(|fault| {
-            let name = fault.name.map(|name| format!("{name}: ")).unwrap_or_default();
-            finding(format!("{name}{}", fault.found), false, Weight::Fault, fault.advice)
-        })
+        .map(|fault| finding(fault.in_words(), false, Weight::Fault, fault.advice))
         .collect();
     match verdict.status {
         Status::Right | Status::RightUnderAnotherReading => {

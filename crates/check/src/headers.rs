@@ -122,7 +122,7 @@ fn common_parts(path: &str, name: &str) -> usize {
     path.iter().zip(&name).take_while(|(a, b)| a == b).count()
 }
 
-fn files_below(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
         if path.is_dir() {

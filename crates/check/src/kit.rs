@@ -20,8 +20,8 @@ pub(crate) const FIRST_HEADERS: [&str; 2] = [
     "standin/common/Rendering/Renderer/Photon/PhotonMappingRenderer.h",
     "standin/common/Scene/Lights/Point/PointLight.h",
 ];
-/// The harness, compiled for submissions without headers of their own.
-const HARNESS: &str = "harness.o";
+/// The harness, compiled for submissions that replace no header of the framework.
+pub(crate) const HARNESS: &str = "harness.o";
 /// For as many submissions, precompiled headers take less time than they save.
 const MANY: usize = 6;
 /// How the names of our folders begin.
@@ -182,7 +182,7 @@ impl Kit {
         command
     }
 
-    /// The object file of the harness for submissions without headers of their own. The first one
+    /// The object file of the harness for submissions that replace no header of it. The first one
     /// compiles it with `compile`, which gives the path of the object, or what is wrong.
     pub(crate) fn harness<E>(
         &self,

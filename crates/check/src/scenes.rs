@@ -12,14 +12,9 @@ pub(crate) const CENTER: Vec3 = Vec3::new(0.137, -0.211, 0.423);
 pub(crate) fn add_scene(step: PlanStep, file: &mut String) {
     line(file, "scene");
     match step {
-        PlanStep::Emit
-        | PlanStep::EmitCorner
-        | PlanStep::EmitOnSphere
-        | PlanStep::EmitZero
-        | PlanStep::AroundLight => {
+        step if step.is_emission() => {
             line(file, &format!("light{}{}", vector_text(LIGHT), vector_text(Vec3::ONE)));
         }
-        PlanStep::StoreMiss => {}
         PlanStep::StoreFirst | PlanStep::StoreLater(_) | PlanStep::Black => {
             wall(file, Vec3::Z, Vec3::ZERO)
         }
@@ -30,6 +25,8 @@ pub(crate) fn add_scene(step: PlanStep, file: &mut String) {
         PlanStep::Threshold(_) | PlanStep::Floor => wall(file, Vec3::Z, Vec3::splat(0.5)),
         PlanStep::Wall(normal) => wall(file, normal, Vec3::splat(0.5)),
         PlanStep::Whole => handout(file),
+        // A ray meets nothing there.
+        _ => {}
     }
 }
 

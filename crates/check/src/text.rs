@@ -46,8 +46,7 @@ pub fn text(report: &CheckReport, grade: &Grade, best: f64) -> String {
 fn section(verdict: &SectionVerdict, line: &mut impl FnMut(String)) {
     line(format!("  {}: {}", verdict.section.title(), verdict.in_words()));
     for fault in &verdict.faults {
-        let name = fault.name.map(|name| format!("{name}: ")).unwrap_or_default();
-        line(format!("    {name}{}", fault.found));
+        line(format!("    {}", fault.in_words()));
         line(format!("    -> {}", fault.advice));
     }
     for remark in &verdict.remarks {

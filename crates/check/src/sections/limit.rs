@@ -10,7 +10,8 @@ pub(super) fn judge_limit<'a>(
     far: &[Call],
     verdict: &mut SectionVerdict,
 ) {
-    let below: usize = calls(PlanStep::Remaining(-1)).iter().map(|call| call.stored.len()).sum();
+    let stored = |calls: &[Call]| calls.iter().map(|call| call.stored.len()).sum::<usize>();
+    let below = stored(calls(PlanStep::Remaining(-1)));
     if below > 0 {
         let found = format!("{below} photons are stored with remainingBounces = -1");
         let advice = "End TracePhoton first of all where remainingBounces is less than 0.";
@@ -18,17 +19,15 @@ pub(super) fn judge_limit<'a>(
     }
     let advice = "TracePhoton ends when remainingBounces is LESS THAN 0, not when it is 0.";
     let at_zero = calls(PlanStep::Remaining(0));
-    let hits_at_zero: usize = at_zero.iter().map(|call| call.hits().count()).sum();
-    let stored_at_zero: usize = at_zero.iter().map(|call| call.stored.len()).sum();
-    let hits_at_one: usize =
-        calls(PlanStep::Remaining(1)).iter().map(|call| call.hits().count()).sum();
-    if !at_zero.is_empty() && hits_at_one > 0 && hits_at_zero == 0 {
+    let hits = |calls: &[Call]| calls.iter().map(|call| call.hits().count()).sum::<usize>();
+    let hits_at_zero = hits(at_zero);
+    if !at_zero.is_empty() && hits(calls(PlanStep::Remaining(1))) > 0 && hits_at_zero == 0 {
         let found = "with remainingBounces = 0, no ray is traced; expected one".to_owned();
         verdict.fault(Some("bounce-off-by-one"), found, advice);
         return;
     }
-    let stores = calls(PlanStep::StoreLater(2)).iter().any(|call| !call.stored.is_empty());
-    if hits_at_zero > 0 && stored_at_zero == 0 && stores {
+    let stores = stored(calls(PlanStep::StoreLater(2))) > 0;
+    if hits_at_zero > 0 && stored(at_zero) == 0 && stores {
         let found = "with remainingBounces = 0, a hit is not stored".to_owned();
         verdict.fault(Some("bounce-off-by-one"), found, advice);
         return;

@@ -59,6 +59,14 @@ pub struct Fault {
     pub advice: &'static str,
 }
 
+impl Fault {
+    /// What was seen, after its name.
+    pub(crate) fn in_words(&self) -> String {
+        let name = self.name.map(|name| format!("{name}: ")).unwrap_or_default();
+        name + &self.found
+    }
+}
+
 /// The verdict on one section.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SectionVerdict {

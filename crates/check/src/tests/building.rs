@@ -10,7 +10,7 @@ use variants::section::Section;
 use super::{faults, handed_in, kit, read, report, report_on, sections_text, target};
 use crate::checking::{CheckSettings, check};
 use crate::find::{CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER};
-use crate::kit::{FIRST_HEADERS, Kit, STANDARD};
+use crate::kit::{FIRST_HEADERS, HARNESS, Kit, STANDARD};
 use crate::report::Builds;
 use crate::sections::Status;
 use crate::workshop::Workshop;
@@ -183,7 +183,22 @@ fn headers_are_precompiled_for_what_includes_them_as_they_are() {
             assert_eq!(printed.starts_with("! "), is_taken, "{name}: {printed}");
         }
     }
-    let kit = Kit::kept_in(None, None).expect("there was one");
+    let mut kit = Kit::kept_in(None, None).expect("there was one");
+    let precompiled = kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch");
     kit.prepare_for(1);
-    assert!(!kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch").exists());
+    assert!(!precompiled.exists());
+    // Whose harness is kept checks again and again.
+    kit.compiler = "true".into();
+    fs::write(kit.path().join(HARNESS), "").expect("can be written");
+    kit.prepare_for(1);
+    assert!(precompiled.exists());
+}
+
+#[test]
+fn the_next_run_compiles_no_harness() {
+    let Some(report) = report(&[]) else { return };
+    assert_eq!(report.builds, Builds::Yes);
+    let next = Kit::kept_in(target().as_deref(), None).expect("there was one");
+    let kept = next.harness::<()>(|| panic!("it is compiled again")).expect("can be read");
+    assert!(kept.is_ok());
 }
