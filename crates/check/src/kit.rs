@@ -39,6 +39,7 @@ macro_rules! assets {
 pub(crate) const ASSETS: &[(&str, &str)] = assets![
     "harness/all.cpp",
     "harness/around.cpp",
+    "harness/first.hpp",
     "harness/guard.cpp",
     "harness/harness.cpp",
     "harness/random.cpp",

@@ -119,6 +119,27 @@ fn files_that_were_not_handed_in_are_not_read() {
     }
 }
 
+/// GCC would take the header as it was compiled before, whatever it says now.
+#[test]
+fn what_was_compiled_elsewhere_is_not_taken() {
+    let Some(kit) = kit() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("mine.h"), "#define GenerateRandomPhotonRay Other\n").expect("can be written");
+    let command = kit.command(STANDARD);
+    let mut compiler = Command::new(&command[0]);
+    compiler.args(&command[1..]).args(["-x", "c++-header"]).arg(at("mine.h"));
+    assert!(compiler.status().expect("a compiler").success());
+    fs::write(at("mine.h"), "").expect("can be written");
+    let light = format!("#include \"{}\"\n{}", at("mine.h").display(), read(LIGHT));
+    fs::write(at(LIGHT), light).expect("can be written");
+    fs::write(at(RENDERER), read(RENDERER)).expect("can be written");
+    let submission = CppSubmission::find(folder.path()).expect("a submission");
+    let settings = CheckSettings { photons: 100, ..CheckSettings::default() };
+    let report = check(&submission, kit, &settings).expect("it can be checked");
+    assert_eq!(report.builds, Builds::Yes);
+}
+
 #[test]
 fn a_compiler_that_never_ends_is_ended() {
     let Some(kit) = kit() else { return };

@@ -1,0 +1,1 @@
+// Where this is included first, GCC takes no other header as somebody compiled it.
