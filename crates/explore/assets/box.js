@@ -81,8 +81,8 @@ function arrowsOf(step, { light, direction: emitted }, hit) {
 /** Puts everything over the box in its place, each label below those before it that stand there. */
 function placePath() {
   const { clientWidth: width, clientHeight: height } = view.canvas, placed = [];
-  for (const [i, { kind, at }] of page.over.entries()) {
-    const node = $("over").children[i];
+  for (const [i, entry] of page.over.entries()) {
+    const { kind, at } = entry, node = $("over").children[i];
     if (at.length > 1) {
       node.setAttribute("d", view.outline(at).map(([a, b]) => `M${a}L${b}`).join(""));
       continue;
@@ -91,7 +91,7 @@ function placePath() {
     const isOut = left < 0 || top < 0 || left > width || top > height;
     node.style.display = isOut ? "none" : "";
     if (kind === "label" && !isOut) {
-      const { width: wide, height: high } = node.getBBox();
+      const { width: wide, height: high } = (entry.box ??= node.getBBox());
       left = Math.min(left + 8, width - wide - 2);
       top += 13;
       const isCovered = (other) =>

@@ -10,17 +10,17 @@ const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const NEAREST = 0.01;
 /** Of each point the position, the color, the normal, and the look. */
 const ATTRIBUTES = [[3, "FLOAT"], [4, "UNSIGNED_BYTE"], [3, "BYTE"], [2, "UNSIGNED_BYTE"]];
-/** So many dots can be drawn while the camera moves, also without a graphics card. */
-const QUICK = 60_000;
 /** So many pixels a side are looked at around a click. */
 const PICK = 25;
 
 class View {
   /** How opaque walls are. */
   alpha = 1;
-  /** The part of the dots drawn. */
+  /** The part of the dots drawn, and that for which there is time while the camera moves. */
   part = 1;
+  pace = 1;
   moved = 0;
+  drawn = 0;
   layers = {};
 
   /** A view on `canvas`, which calls `onDraw` for every frame. Without WebGL2 it has no `gl`. */
@@ -80,8 +80,11 @@ class View {
 
   /** While the camera moves, draws only as many dots as there is time for. At rest, draws all. */
   keepPace() {
-    const isMoving = performance.now() - this.moved < 200;
-    this.part = isMoving ? Math.min(1, QUICK / this.layers.dots.count) : 1;
+    const now = performance.now(), since = now - this.drawn, isMoving = now - this.moved < 200;
+    if (isMoving && since < 1000)
+      this.pace = clamp(this.pace * clamp(42 / since, 0.6, 1.15), 0.02, 1);
+    this.part = isMoving ? this.pace : 1;
+    this.drawn = now;
     clearTimeout(this.rest);
     if (this.part < 1) this.rest = setTimeout(() => this.draw(), 250);
   }
