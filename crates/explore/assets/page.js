@@ -121,7 +121,7 @@ const ACTIONS = [
 
 function listen() {
   for (const [id, key, action] of ACTIONS)
-    if (id) Object.assign($(id), { onclick: action, ariaKeyShortcuts: key });
+    if (id) Object.assign($(id), { onclick: () => page.step && action(), ariaKeyShortcuts: key });
   for (const kind of ["mouseover", "focusin", "mouseout", "focusout"])
     $("table").addEventListener(kind, showDots);
   $("table").onclick = keep;

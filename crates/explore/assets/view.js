@@ -80,11 +80,12 @@ class View {
 
   /** While the camera moves, draws only as many dots as there is time for. At rest, draws all. */
   keepPace() {
-    const now = performance.now(), since = now - this.drawn, isMoving = now - this.moved < 200;
-    if (isMoving && since < 1000)
-      this.pace = clamp(this.pace * clamp(42 / since, 0.6, 1.15), 0.02, 1);
+    const now = performance.now(), since = now - this.drawn;
+    const isMoving = this.moved > this.drawn || now - this.moved < 150;
+    if (isMoving && this.wasMoving)
+      this.pace = clamp(this.pace * clamp(42 / since, 0.3, 1.15), 0.02, 1);
     this.part = isMoving ? this.pace : 1;
-    this.drawn = now;
+    Object.assign(this, { drawn: now, wasMoving: isMoving });
     clearTimeout(this.rest);
     if (this.part < 1) this.rest = setTimeout(() => this.draw(), 250);
   }
