@@ -95,7 +95,7 @@ function placePath() {
       left = Math.min(left + 8, width - wide - 2);
       top += 13;
       const isCovered = (other) =>
-        left < other.left + other.wide && other.left < left + wide &&
+        left < other.left + other.wide + 6 && other.left < left + wide + 6 &&
         Math.abs(top - other.top) < high;
       for (let other; (other = placed.find(isCovered)); ) top = other.top + high + 1;
       placed.push({ left, top, wide });
