@@ -49,25 +49,26 @@ function* photonRandom(seed, photon) {
  * ones. */
 function addPaths(run) {
   const count = run.dotKind.length, next = { photon: 0, hit: 0, dot: 0, direction: 0 };
-  const photons = new Uint32Array(count), bounces = new Uint16Array(count);
-  const surfaces = new Uint16Array(count), normals = new Int8Array(3 * count), paths = [];
+  Object.assign(run, {
+    paths: [], dotPhoton: new Uint32Array(count), dotBounce: new Uint16Array(count),
+    dotSurface: new Uint16Array(count), dotNormal: new Int8Array(3 * count),
+  });
   run.pathHits.forEach((hits, path) => {
     next.photon += run.pathPhoton[path];
-    paths.push({ path, hits, ...next });
+    run.paths.push({ path, hits, ...next });
     for (let bounce = 1; bounce < hits; bounce++, next.dot++) {
       const { surface, normal } = run.faces[run.hitFace[next.hit + bounce]];
-      [photons[next.dot], bounces[next.dot]] = [next.photon, bounce];
-      surfaces[next.dot] = surface;
-      normal.forEach((x, i) => (normals[3 * next.dot + i] = 127 * x));
+      run.dotPhoton[next.dot] = next.photon;
+      run.dotBounce[next.dot] = bounce;
+      run.dotSurface[next.dot] = surface;
+      normal.forEach((x, i) => (run.dotNormal[3 * next.dot + i] = 127 * x));
     }
     next.hit += hits;
     next.direction += hits - (run.pathEnding[path] === 0);
   });
-  photons.set(run.otherPhoton, next.dot);
-  bounces.set(run.otherBounce, next.dot);
-  surfaces.set(run.otherSurface, next.dot);
-  const dots = { dotPhoton: photons, dotBounce: bounces, dotSurface: surfaces, dotNormal: normals };
-  return Object.assign(run, dots, { paths, stored: next.dot });
+  for (const what of ["Photon", "Bounce", "Surface"])
+    run[`dot${what}`].set(run[`other${what}`], next.dot);
+  return Object.assign(run, { stored: next.dot });
 }
 
 /** The story of `photon`, as `explain --json` prints it; nothing if the page does not have it. */

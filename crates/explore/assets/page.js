@@ -128,7 +128,9 @@ function listen() {
   $("left").oninput = showDots;
   $("photon").onchange = () => open(+$("photon").value, 0, "emission");
   $("slider").oninput = () => go(+$("slider").value);
-  window.onhashchange = followLink;
+  window.onhashchange = () => followLink(location.hash);
+  // The address lags behind what is open, so it may not change when a link is followed.
+  document.onclick = ({ target }) => followLink(target.closest("a")?.hash ?? "");
   window.matchMedia("(prefers-color-scheme: dark)").onchange = showDots;
   document.onkeydown = pressKey;
 }
@@ -157,7 +159,7 @@ async function start() {
   if (view.gl) showBox();
   else showPicture();
   if (run.start) open(...run.start);
-  followLink();
+  followLink(location.hash);
   view.drawNow();
   view.finish();
   // For the console and the tests.
