@@ -59,6 +59,8 @@ function showPath() {
     put(bounce < reached ? "mark" : "mark ahead", stored ? "●" : "○", position);
     put("label", stored ? bounce : "0, not stored", position);
   }
+  // Labels stand over all else.
+  page.over.sort((a, b) => (a.kind === "label") - (b.kind === "label"));
   $("over").innerHTML = page.over.map(({ kind, text }) =>
     text === "" ? `<path class="${kind}" />` : `<text class="${kind}">${text}</text>`).join("");
   view.draw();
