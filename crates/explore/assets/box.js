@@ -59,6 +59,8 @@ function showPath() {
     put(bounce < reached ? "mark" : "mark ahead", stored ? "●" : "○", position);
     put("label", stored ? bounce : "0, not stored", position);
   }
+  // Labels stand over all else.
+  page.over.sort((a, b) => (a.kind === "label") - (b.kind === "label"));
   $("over").innerHTML = page.over.map(({ kind, text }) =>
     text === "" ? `<path class="${kind}" />` : `<text class="${kind}">${text}</text>`).join("");
   view.draw();
@@ -81,8 +83,8 @@ function arrowsOf(step, { light, direction: emitted }, hit) {
 /** Puts everything over the box in its place, each label below those before it that stand there. */
 function placePath() {
   const { clientWidth: width, clientHeight: height } = view.canvas, placed = [];
-  for (const [i, { kind, at }] of page.over.entries()) {
-    const node = $("over").children[i];
+  for (const [i, entry] of page.over.entries()) {
+    const { kind, at } = entry, node = $("over").children[i];
     if (at.length > 1) {
       node.setAttribute("d", view.outline(at).map(([a, b]) => `M${a}L${b}`).join(""));
       continue;
@@ -91,11 +93,11 @@ function placePath() {
     const isOut = left < 0 || top < 0 || left > width || top > height;
     node.style.display = isOut ? "none" : "";
     if (kind === "label" && !isOut) {
-      const { width: wide, height: high } = node.getBBox();
+      const { width: wide, height: high } = (entry.box ??= node.getBBox());
       left = Math.min(left + 8, width - wide - 2);
       top += 13;
       const isCovered = (other) =>
-        left < other.left + other.wide && other.left < left + wide &&
+        left < other.left + other.wide + 6 && other.left < left + wide + 6 &&
         Math.abs(top - other.top) < high;
       for (let other; (other = placed.find(isCovered)); ) top = other.top + high + 1;
       placed.push({ left, top, wide });

@@ -44,22 +44,36 @@ function* photonRandom(seed, photon) {
   }
 }
 
-/** Where the path of `photon` begins in the columns of hits, dots and directions, and how many hits
- * it has; nothing if the page does not have it. */
-function pathOf({ pathPhoton, pathHits, pathEnding }, photon) {
-  const at = { path: 0, photon: pathPhoton[0], hit: 0, dot: 0, direction: 0 };
-  for (; at.photon < photon; at.photon += pathPhoton[++at.path]) {
-    const hits = pathHits[at.path];
-    at.hit += hits;
-    at.dot += Math.max(hits - 1, 0);
-    at.direction += hits - (pathEnding[at.path] === 0);
-  }
-  return at.photon === photon ? { ...at, hits: pathHits[at.path] } : null;
+/** Adds to `run` where each of its paths begins in the columns of hits, dots and directions. Adds
+ * what each dot is: first the stored photons, then those that another list moved, then its extra
+ * ones. */
+function addPaths(run) {
+  const count = run.dotKind.length, next = { photon: 0, hit: 0, dot: 0, direction: 0 };
+  Object.assign(run, {
+    paths: [], dotPhoton: new Uint32Array(count), dotBounce: new Uint16Array(count),
+    dotSurface: new Uint16Array(count), dotNormal: new Int8Array(3 * count),
+  });
+  run.pathHits.forEach((hits, path) => {
+    next.photon += run.pathPhoton[path];
+    run.paths.push({ path, hits, ...next });
+    for (let bounce = 1; bounce < hits; bounce++, next.dot++) {
+      const { surface, normal } = run.faces[run.hitFace[next.hit + bounce]];
+      run.dotPhoton[next.dot] = next.photon;
+      run.dotBounce[next.dot] = bounce;
+      run.dotSurface[next.dot] = surface;
+      normal.forEach((x, i) => (run.dotNormal[3 * next.dot + i] = 127 * x));
+    }
+    next.hit += hits;
+    next.direction += hits - (run.pathEnding[path] === 0);
+  });
+  for (const what of ["Photon", "Bounce", "Surface"])
+    run[`dot${what}`].set(run[`other${what}`], next.dot);
+  return Object.assign(run, { stored: next.dot });
 }
 
 /** The story of `photon`, as `explain --json` prints it; nothing if the page does not have it. */
 function storyOf(run, photon) {
-  const found = pathOf(run, photon);
+  const found = run.paths.find((path) => path.photon === photon);
   if (!found) return null;
   const { path, hits: count } = found;
   const random = photonRandom(run.seed, photon), rand = () => random.next().value;

@@ -7,8 +7,8 @@ const make = (tag, properties, ...children) => {
   return node;
 };
 
-/** What is open: a photon, its story and steps, what is drawn over the box, and the timer that plays
- * the steps. */
+/** What is open: a photon, its story and steps, and what is drawn over the box. Then the timer that
+ * plays the steps. */
 const page = { steps: [], over: [], timer: null };
 let run, view;
 
@@ -33,15 +33,15 @@ const bounceGroup = (dot) => clamp(run.dotBounce[dot], 1, 4) - 1;
  * surface and a bounce; -1 is any. */
 function isIn(button) {
   const [surface, bounce] = button.value.split(" ").map(Number);
-  return (dot) => [-1, run.dotSurface[dot]].includes(surface) &&
-    [-1, bounceGroup(dot)].includes(bounce);
+  return (dot) => (surface < 0 || surface === run.dotSurface[dot]) &&
+    (bounce < 0 || bounce === bounceGroup(dot));
 }
 
 /** Shows the dots that the table and the range leave, as the user wants them colored. */
 function showDots() {
   const { dotPosition, dotNormal, dotPhoton, dotSurface, dotKind, stored, movedIndex } = run;
   const way = $("colors").value, [styles, names, styleOf] = WAYS[way](), count = dotKind.length;
-  const painted = new Uint8Array(4 * count), looks = (page.looks = new Uint8Array(2 * count));
+  const painted = new Uint32Array(count), looks = new Uint16Array(count);
   const [colors, shapes] = [0, 1].map((part) => styles.map((style) => style.split(" ")[part]));
   const alone = $("table").querySelector("[aria-pressed=true]");
   const lit = (page.lit = $("table").querySelector("button:is(:hover, :focus-visible)"));
@@ -52,14 +52,14 @@ function showDots() {
   const isShown = (dot) => isAlone(dot) && dotPhoton[dot] >= from && dotPhoton[dot] <= to &&
     !bounces.includes(bounceGroup(dot)) && !surfaces.includes(dotSurface[dot]);
   const isLarge = way === "kind" && run.comparison.areFew;
-  const [dim, full] = [lit ? 0.15 : 1, 1].map((alpha) =>
-    colors.map((color) => colorOf(color, alpha)));
+  const paints = colors.map((color) =>
+    new Uint32Array(Uint8Array.from(colorOf(color, lit ? 0.15 : 1)).buffer)[0]);
   let shown = 0;
   for (let dot = 0; dot < (way === "kind" ? count : stored); dot++) {
     if (!isShown(dot)) continue;
     const style = styleOf(dot), state = isLit(dot) ? 2 : isLarge && dotKind[dot] ? 3 : 1;
-    painted.set((state === 2 ? full : dim)[style], 4 * dot);
-    looks.set([SHAPES.indexOf(shapes[style]), state], 2 * dot);
+    painted[dot] = paints[style] | (state === 2 ? 0xff000000 : 0);
+    looks[dot] = SHAPES.indexOf(shapes[style]) | (state << 8);
     // A moved photon has two dots.
     shown += dot < stored || dot >= stored + movedIndex.length;
   }
@@ -74,7 +74,9 @@ function showDots() {
   view.alpha = $("walls").checked ? 1 : 0.16;
   view.air = scale(colorOf("air").slice(0, 3), 1 / 255);
   setLines("edges", run.edgeEnds, colorOf("edge"));
-  view.setLayer("dots", "POINTS", dotPosition, painted, dotNormal, looks);
+  page.looks = new Uint8Array(looks.buffer);
+  view.setLayer("dots", "POINTS",
+    dotPosition, new Uint8Array(painted.buffer), dotNormal, page.looks);
   showMoved();
 }
 
@@ -119,14 +121,16 @@ const ACTIONS = [
 
 function listen() {
   for (const [id, key, action] of ACTIONS)
-    if (id) Object.assign($(id), { onclick: action, ariaKeyShortcuts: key });
+    if (id) Object.assign($(id), { onclick: () => page.step && action(), ariaKeyShortcuts: key });
   for (const kind of ["mouseover", "focusin", "mouseout", "focusout"])
     $("table").addEventListener(kind, showDots);
   $("table").onclick = keep;
   $("left").oninput = showDots;
   $("photon").onchange = () => open(+$("photon").value, 0, "emission");
   $("slider").oninput = () => go(+$("slider").value);
-  window.onhashchange = followLink;
+  window.onhashchange = () => followLink(location.hash);
+  // The address lags behind what is open, so it may not change when a link is followed.
+  document.onclick = ({ target }) => followLink(target.closest("a")?.hash ?? "");
   window.matchMedia("(prefers-color-scheme: dark)").onchange = showDots;
   document.onkeydown = pressKey;
 }
@@ -146,7 +150,7 @@ function pressKey(event) {
 
 async function start() {
   const { sections, scene, ...meta } = JSON.parse($("meta").textContent);
-  run = { ...meta, ...scene, ...(await readColumns(sections)) };
+  run = addPaths({ ...meta, ...scene, ...(await readColumns(sections)) });
   run.place = (dot) => vectorOf(run.dotPosition, dot);
   view = new View($("view"), placePath);
   if (run.comparison)
@@ -155,7 +159,7 @@ async function start() {
   if (view.gl) showBox();
   else showPicture();
   if (run.start) open(...run.start);
-  followLink();
+  followLink(location.hash);
   view.drawNow();
   view.finish();
   // For the console and the tests.

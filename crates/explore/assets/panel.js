@@ -32,10 +32,10 @@ function open(photon, bounce, name) {
 
 const linkTo = (photon, bounce, name) => `#photon=${photon}&bounce=${bounce}&step=${name}`;
 
-/** Opens what the address names, if it names anything. */
-function followLink() {
-  const link = new URLSearchParams(location.hash.slice(1)), photon = link.get("photon");
-  if (location.hash === page.link || !/^\d+$/.test(photon)) return;
+/** Opens what the end of an address names, if it names anything that is not open. */
+function followLink(hash) {
+  const link = new URLSearchParams(hash.slice(1)), photon = link.get("photon");
+  if (hash === page.link || !/^\d+$/.test(photon)) return;
   open(+photon, +link.get("bounce"), link.get("step") ?? "emission");
 }
 

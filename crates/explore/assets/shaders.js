@@ -7,42 +7,38 @@ const SHAPES = "●■◆▲○×";
 const VERTEX = `#version 300 es
 layout(location = 0) in vec3 position; layout(location = 1) in vec4 color;
 layout(location = 2) in vec3 normal; layout(location = 3) in vec2 look;
-uniform mat4 camera; uniform vec3 eye; uniform vec2 shift;
+uniform mat4 camera; uniform vec3 eye, light, air; uniform vec2 shift;
 uniform float pixels, ratio, alpha, pick;
-out vec3 at, n; flat out vec4 c; flat out float shape, wide;
+out vec4 c; flat out float shape, wide;
 void main() {
-  at = position; n = normal; c = color; shape = round(look.x * 255.);
-  float state = round(look.y * 255.);
+  c = color; shape = round(look.x * 255.); wide = 0.;
+  float state = round(look.y * 255.); bool isDot = state > 0., isLine = normal == vec3(0);
   // Dots and lines stand a little nearer than their surface, whose depth varies within a pixel.
   // (With \`polygonOffset\`, some drivers give other depths in every frame.)
-  float nearer = state > 0. ? .006 : normal == vec3(0) ? .002 : 0.;
+  float nearer = isDot ? .006 : isLine ? .002 : 0.;
   gl_Position = camera * vec4(mix(position, eye, nearer), 1);
-  wide = 0.;
-  bool isHidden = c.a == 0. || (state > 0. && alpha == 1. && dot(n, eye - at) < 0.);
-  if (isHidden) gl_Position = vec4(2, 2, 2, 1);
-  if (isHidden || state == 0.) return;
-  // The handout's rays go through upper left corners: half a pixel off the middle.
-  gl_Position.xy += shift * gl_Position.w;
-  // A dot is as wide as the cube in which the handout looks for a photon, but can always be seen.
-  wide = clamp(pixels / gl_Position.w, pick > 0. ? 5. : 1.5 * ratio, 30. * ratio);
-  if (state == 2.) wide = max(wide * 1.6, 4.);
-  if (state == 3.) wide = max(wide, 8. * ratio);
-  gl_PointSize = wide;
-  uint id = uint(gl_VertexID) + 1u;
-  if (pick > 0.) c = vec4(id & 255u, (id >> 8) & 255u, id >> 16, 255) / 255.;
+  // Seen from behind, a wall does not hide the room. If it is solid, its dots are hidden, too.
+  bool isBehind = dot(normal, eye - position) < 0. && (!isDot || alpha == 1.);
+  if (c.a == 0. || isBehind) gl_Position = vec4(2, 2, 2, 1);
+  else if (isDot) {
+    // The handout's rays go through upper left corners: half a pixel off the middle.
+    gl_Position.xy += shift * gl_Position.w;
+    // A dot is as wide as the cube in which the handout looks for a photon, if that can be seen.
+    wide = clamp(pixels / gl_Position.w, pick > 0. ? 5. : 1.5 * ratio, 30. * ratio);
+    if (state == 2.) wide = max(wide * 1.6, 4.);
+    if (state == 3.) wide = max(wide, 8. * ratio);
+    gl_PointSize = wide;
+    uint id = uint(gl_VertexID) + 1u;
+    if (pick > 0.) c = vec4(id & 255u, (id >> 8) & 255u, id >> 16, 255) / 255.;
+  } else if (!isLine) {
+    float lit = .35 + .65 * max(dot(normal, normalize(light - position)), 0.);
+    c = vec4(mix(c.rgb * lit, air, .5), alpha);
+  }
 }`;
 const FRAGMENT = `#version 300 es
-precision highp float;
-in vec3 at, n; flat in vec4 c; flat in float shape, wide;
-uniform vec3 eye, light, air; uniform float alpha, pick; out vec4 o;
+precision highp float; in vec4 c; flat in float shape, wide; uniform float pick; out vec4 o;
 void main() {
   o = c;
-  if (wide == 0. && n != vec3(0)) {
-    // Seen from behind, a wall does not hide the room. If it is solid, its dots are hidden, too.
-    if (dot(n, eye - at) < 0.) discard;
-    float lit = .35 + .65 * max(dot(normalize(n), normalize(light - at)), 0.);
-    o = vec4(mix(c.rgb * lit, air, .5), alpha);
-  }
   // Too small for a shape: a square, so that at least one pixel is drawn.
   if (pick > 0. || wide < 3.) return;
   vec2 p = abs(gl_PointCoord * 2. - 1.); float d = length(p);

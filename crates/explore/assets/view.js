@@ -6,26 +6,17 @@ const scale = (a, by) => a.map((x) => x * by);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const unit = (a) => scale(a, 1 / (Math.hypot(...a) || 1));
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
-/** What is closer to the camera is not drawn. */
-const NEAREST = 0.01;
 /** Of each point the position, the color, the normal, and the look. */
 const ATTRIBUTES = [[3, "FLOAT"], [4, "UNSIGNED_BYTE"], [3, "BYTE"], [2, "UNSIGNED_BYTE"]];
-/** So many dots can be drawn while the camera moves, also without a graphics card. */
-const QUICK = 60_000;
 /** So many pixels a side are looked at around a click. */
 const PICK = 25;
 
 class View {
-  /** How opaque walls are. */
-  alpha = 1;
-  /** The part of the dots drawn. */
-  part = 1;
-  moved = 0;
-  layers = {};
-
-  /** A view on `canvas`, which calls `onDraw` for every frame. Without WebGL2 it has no `gl`. */
+  /** A view on `canvas`, which calls `onDraw` for every frame. Without WebGL2 it has no `gl`.
+   * Its `alpha` is how opaque walls are. */
   constructor(canvas, onDraw) {
-    Object.assign(this, { canvas, onDraw });
+    const state = { alpha: 1, part: 1, pace: 1, moved: 0, drawn: 0, layers: {} };
+    Object.assign(this, { canvas, onDraw, ...state });
     new ResizeObserver(() => this.draw()).observe(canvas);
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
     const program = gl?.createProgram();
@@ -78,10 +69,15 @@ class View {
     this.look({ yaw: yaw + dx, pitch: pitch - dy, distance: to });
   }
 
-  /** While the camera moves, draws only as many dots as there is time for. At rest, draws all. */
+  /** Sets which part of the dots is drawn: all at rest, and while the camera moves only as many as
+   * there is time for. */
   keepPace() {
-    const isMoving = performance.now() - this.moved < 200;
-    this.part = isMoving ? Math.min(1, QUICK / this.layers.dots.count) : 1;
+    const now = performance.now(), since = now - this.drawn;
+    const isMoving = this.moved > this.drawn || now - this.moved < 150;
+    if (isMoving && this.wasMoving)
+      this.pace = clamp(this.pace * clamp(42 / since, 0.3, 1.15), 0.02, 1);
+    this.part = isMoving ? this.pace : 1;
+    Object.assign(this, { drawn: now, wasMoving: isMoving });
     clearTimeout(this.rest);
     if (this.part < 1) this.rest = setTimeout(() => this.draw(), 250);
   }
@@ -106,15 +102,16 @@ class View {
   /** Where the line through `points` appears: its pieces before the camera, in CSS pixels. */
   outline(points) {
     const { matrix } = this.lens(), { clientWidth: width, clientHeight: height } = this.canvas;
+    const nearest = 0.01;
     const ends = points.map((point) => matrix.transformPoint(new DOMPoint(...point)));
     /** The end `a` of a piece, or where its part before the camera ends. */
     const place = (a, b) => {
-      const by = a.w < NEAREST ? (NEAREST - a.w) / (b.w - a.w) : 0;
+      const by = a.w < nearest ? (nearest - a.w) / (b.w - a.w) : 0;
       const [x, y, w] = ["x", "y", "w"].map((axis) => a[axis] + by * (b[axis] - a[axis]));
       return [((x / w + 1) / 2) * width, ((1 - y / w) / 2) * height];
     };
     return ends.slice(1).map((b, i) => [ends[i], b])
-      .filter((piece) => piece.some(({ w }) => w >= NEAREST))
+      .filter((piece) => piece.some(({ w }) => w >= nearest))
       .map(([a, b]) => [place(a, b), place(b, a)]);
   }
 

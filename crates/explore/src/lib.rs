@@ -5,10 +5,10 @@
 //! stories come from [`compare::explain`], lists and comparisons from their own crates. Only the
 //! random numbers are drawn again in the page, since they would double its size.
 //!
-//! The box is drawn by 400 lines of WebGL of our own. Two crates embed a chart library, and neither
-//! would do: `plotly` 0.14 brings 4.7 MB of JavaScript, twice the size that this page may have, and
-//! sizes its dots in pixels, not in the scene's units; `charming` 0.6 embeds ECharts without its
-//! 3-D part.
+//! The box is drawn by some 250 lines of WebGL of our own. Two crates embed a chart library, and
+//! neither would do: `plotly` 0.14 brings 4.7 MB of JavaScript, twice the size that this page may
+//! have, and sizes its dots in pixels, not in the scene's units; `charming` 0.6 embeds ECharts
+//! without its 3-D part.
 
 pub mod comparison;
 mod html;

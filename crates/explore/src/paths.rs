@@ -33,8 +33,6 @@ pub struct Paths {
     /// How many stored photons the page has, if it leaves out some.
     #[serde(skip)]
     pub thinned: Option<u64>,
-    /// How many of the dots are photons that the run stores.
-    stored: usize,
     /// The photon, bounce and step on which the page opens.
     start: Option<(u64, usize, &'static str)>,
     surfaces: Vec<PageSurface>,
@@ -64,7 +62,7 @@ impl Paths {
         let mut columns = PackedColumns::default();
         add_walls(&mut columns, &surfaces, &faces);
         add_paths(&mut columns, &stories, &faces, run);
-        let stored = add_dots(&mut columns, &stories, exploration);
+        add_dots(&mut columns, &stories, exploration);
         let first = records.first().map(|record| u64::from(record.photon));
         let size = run.size();
         let parting = exploration.comparison.and_then(ListComparison::parting);
@@ -72,7 +70,6 @@ impl Paths {
         let [camera, first_camera, picture_camera] = cameras(exploration.is_handout, &faces, size);
         Self {
             columns,
-            stored,
             thinned: thinned.as_ref().map(|kept| kept.len() as u64),
             start: parting.or_else(|| Some((exploration.photon.or(first)?, 0, "emission"))),
             surfaces,
@@ -201,8 +198,8 @@ fn add_paths(columns: &mut PackedColumns, stories: &[Story], faces: &[PageFace],
 }
 
 /// Adds the dots: the photons that `stories` store, those that another list moved, and what it has
-/// besides. Gives how many are stored.
-fn add_dots(columns: &mut PackedColumns, stories: &[Story], exploration: &Exploration) -> usize {
+/// besides.
+fn add_dots(columns: &mut PackedColumns, stories: &[Story], exploration: &Exploration) {
     let stored: Vec<_> = stories
         .iter()
         .flat_map(|story| story.hits.iter().skip(1).map(move |hit| (story.photon as u32, hit)))
@@ -214,27 +211,21 @@ fn add_dots(columns: &mut PackedColumns, stories: &[Story], exploration: &Explor
         None => Overlay { kinds: vec![0; stored.len()], ..Overlay::default() },
     };
     let Overlay { kinds, positions, moved_index, extra } = &overlay;
-    let own = || stored.iter().chain(moved_index.iter().map(|at| &stored[*at as usize]));
-    let extra = || extra.iter();
-    let short = |number: usize| number as u16;
+    let moved = || moved_index.iter().map(|at| &stored[*at as usize]);
     let mut all: Vec<_> = stored.iter().map(|(_, hit)| hit.position).collect();
     all.extend(positions);
     columns.vectors("dotPosition", &all);
     columns.bytes("dotKind", kinds);
     columns.words("movedIndex", moved_index);
     // What a list does not tell is the largest number.
-    let photons = own().map(|(photon, _)| *photon).chain(extra().map(|it| it.photon));
-    columns.words("dotPhoton", &photons.collect::<Vec<_>>());
-    let bounces = own().map(|(_, hit)| short(hit.bounce)).chain(extra().map(|it| it.bounce));
-    columns.shorts("dotBounce", &bounces.collect::<Vec<_>>());
-    let surfaces = own().map(|(_, hit)| short(hit.surface_index));
-    let surfaces = surfaces.chain(extra().map(|it| it.surface));
-    columns.shorts("dotSurface", &surfaces.collect::<Vec<_>>());
-    // Where another list has a photon, it need not lie on a face.
-    let mut normals: Vec<_> = stored.iter().map(|(_, hit)| hit.normal).collect();
-    normals.resize(all.len(), [0.0; 3]);
-    columns.normals("dotNormal", &normals);
-    stored.len()
+    let photons = moved().map(|(photon, _)| *photon).chain(extra.iter().map(|it| it.photon));
+    columns.words("otherPhoton", &photons.collect::<Vec<_>>());
+    let bounces = moved().map(|(_, hit)| hit.bounce as u16);
+    let bounces = bounces.chain(extra.iter().map(|it| it.bounce));
+    columns.shorts("otherBounce", &bounces.collect::<Vec<_>>());
+    let surfaces = moved().map(|(_, hit)| hit.surface_index as u16);
+    let surfaces = surfaces.chain(extra.iter().map(|it| it.surface));
+    columns.shorts("otherSurface", &surfaces.collect::<Vec<_>>());
 }
 
 /// Whether the direction in which a photon leaves is its last try, normalized.

@@ -230,9 +230,15 @@ fn a_scene_of_ones_own_is_explored() {
 
 #[test]
 fn page_of_the_default_run_is_small_and_quick() {
-    let (_, path) = handout();
-    let size = std::fs::metadata(path).expect("written").len();
+    let (run, path) = handout();
+    let page = std::fs::read_to_string(path).expect("written");
+    let size = page.len();
     assert!(size <= 2_500_000, "{size}");
+    // A million stored photons have 40 MB. They pack a little better than these.
+    let data = page.split_once("id=\"data\">").expect("the block").1;
+    let data = data.split_once("</script>").expect("its end").0.len();
+    let stored = run.records.len();
+    assert!(data <= 41 * stored, "{data} bytes for {stored} stored photons");
     let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
     let first = float(&browser.run("page.firstFrame"));
     // Frames of all dots while the camera turns, each waited for. Other tests run at once, so the
