@@ -183,17 +183,21 @@ mod tests {
     fn many_threads_may_need_the_same_at_once() {
         let (done, is_done) = channel();
         std::thread::spawn(move || {
-            let places = Places::new(&create_scene());
-            let signatures = Signatures::of_limit(&places, MAX_PHOTON_BOUNCES);
-            let expectations = Expectations::new(places, signatures);
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(8).build().unwrap();
-            pool.install(|| {
-                (0..64).into_par_iter().for_each(|at| match at % 3 {
-                    0 => drop(expectations.pictures().shifted()),
-                    1 => drop(expectations.paths()),
-                    _ => drop(expectations.pictures()),
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(32).build().unwrap();
+            // By chance, one of two such rounds would never end.
+            for _ in 0..4 {
+                let places = Places::new(&create_scene());
+                let signatures = Signatures::of_limit(&places, MAX_PHOTON_BOUNCES);
+                let expectations = Expectations::new(places, signatures);
+                // Who has nothing to do helps who waits for the same.
+                pool.install(|| {
+                    (0..256).into_par_iter().for_each(|at| match at % 8 {
+                        0 => drop(expectations.pictures().shifted()),
+                        4 => drop(expectations.paths()),
+                        _ => std::thread::sleep(Duration::from_millis(1)),
+                    });
                 });
-            });
+            }
             done.send(()).unwrap();
         });
         is_done.recv_timeout(Duration::from_secs(60)).expect("no thread waits for itself");

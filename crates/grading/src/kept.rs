@@ -14,7 +14,7 @@ use variants::reading::Reading;
 use variants::variation::Simulation;
 
 /// How many photons a thread traces at once.
-const PIECE: u64 = 1 << 16;
+const PIECE: u64 = 1 << 18;
 /// How many pieces wait for each other, so that memory does not grow with the photons.
 const WAVE: usize = 256;
 /// The seed of the signatures. Submissions that follow our streams have another.

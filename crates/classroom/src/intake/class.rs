@@ -97,6 +97,8 @@ pub struct StudentsIn {
     pub folder: PathBuf,
     /// Those submissions that are classes themselves.
     pub classes: Vec<PathBuf>,
+    /// What has been found in the folders of submissions.
+    pub found: BTreeMap<PathBuf, Found>,
 }
 
 /// The class in `folder`, or at the end of a chain of single folders in it, if it is one: it has no
@@ -110,14 +112,15 @@ pub fn class_in(folder: &Path) -> Result<Option<StudentsIn>, String> {
     }
 }
 
-/// The folder of the class `folder`, which the grader has called one.
-pub fn unwrapped(folder: &Path) -> PathBuf {
+/// The class `folder`, which the grader has called one.
+pub fn unwrapped(folder: &Path) -> StudentsIn {
     let inner = || innermost(folder).0;
-    match class_in(folder) {
-        Ok(Some(class)) => class.folder,
+    let folder = match class_in(folder) {
+        Ok(Some(class)) => return StudentsIn { classes: Vec::new(), ..class },
         Err(_) if Children::of(&inner()).folders.is_empty() => inner(),
         Ok(None) | Err(_) => folder.to_owned(),
-    }
+    };
+    StudentsIn { folder, ..StudentsIn::default() }
 }
 
 /// Where a chain of single folders from `folder` ends, and whether the names or files on the way
@@ -145,40 +148,40 @@ fn is_class(folder: &Path) -> Result<Option<StudentsIn>, String> {
     let Children { folders, lists, unlikely, pictures, .. } = children;
     let has_own = [&lists, &unlikely, &pictures].iter().any(|paths| !paths.is_empty());
     let named: Vec<&PathBuf> = folders.iter().filter(|path| !is_part(path)).collect();
-    let found = |path: &&PathBuf| {
-        Some((path.to_path_buf(), Found::search(path).ok().filter(Found::is_something)?))
-    };
-    let students: Vec<(PathBuf, Found)> = named.iter().filter_map(found).collect();
+    let search = |path: &&PathBuf| Some((path.to_path_buf(), Found::search(path).ok()?));
+    let found: BTreeMap<PathBuf, Found> = named.iter().filter_map(search).collect();
+    let students: Vec<_> = found.iter().filter(|(_, found)| found.is_something()).collect();
     let sum =
         |count: fn(&Found) -> usize| students.iter().map(|(_, found)| count(found)).sum::<usize>();
     let classes: Vec<PathBuf> = students
         .iter()
         .filter(|(path, found)| has_several(path, found))
-        .map(|(path, _)| path.clone())
+        .map(|(path, _)| (*path).clone())
         .collect();
     let files = [&lists, &pictures, &unlikely].into_iter().flatten();
     let is_exported = files.clone().all(|file| student_in(&stem(file)).is_some());
     let exported: BTreeSet<_> = own.keys().filter(|name| student_in(name).is_some()).collect();
     let stems: BTreeSet<String> = files.map(|file| stem(file)).collect();
-    let is_one = Ok(None);
-    let class = Ok(Some(StudentsIn { folder: folder.to_owned(), classes: classes.clone() }));
-    match students.len() {
-        0 if exported.len() > 1 && is_exported => class,
-        0 if own.len() > 1 && (stems.len() > 2 || exported.len() > 1) => Err(both_readings(folder)),
-        0 => is_one,
-        _ if has_own && own.len() > 1 => Err(both_readings(folder)),
-        1 if has_own || named.len() == 1 => is_one,
+    let is_class = match students.len() {
+        0 if exported.len() > 1 && is_exported => true,
+        0 if own.len() > 1 && (stems.len() > 2 || exported.len() > 1) => {
+            return Err(both_readings(folder));
+        }
+        0 => false,
+        _ if has_own && own.len() > 1 => return Err(both_readings(folder)),
+        1 if has_own || named.len() == 1 => false,
         // Beside its own list or picture, other pictures are those of a program.
-        2.. if has_own && sum(|found| found.lists.len()) == 0 => is_one,
-        2.. if classes.len() == students.len() => Err(both_readings(&classes[0])),
+        2.. if has_own && sum(|found| found.lists.len()) == 0 => false,
+        2.. if classes.len() == students.len() => return Err(both_readings(&classes[0])),
         2.. if !has_own
             && (sum(|found| found.lists.len() + found.unlikely.len()) > 1
                 || sum(|found| found.pictures.len()) > 1) =>
         {
-            class
+            true
         }
-        _ => Err(both_readings(folder)),
-    }
+        _ => return Err(both_readings(folder)),
+    };
+    Ok(is_class.then(|| StudentsIn { folder: folder.to_owned(), classes, found }))
 }
 
 /// Whether what was `found` in `folder` is that of several students: it lies in two of its folders

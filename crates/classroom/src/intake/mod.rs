@@ -5,7 +5,7 @@ pub mod contents;
 mod folder;
 mod names;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -78,15 +78,14 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     let note = |path: &PathBuf| format!("{}: left out: {WRITTEN}", path.display());
     collected.notes.extend(collected.own.iter().map(note));
     let class_in = |path: &&PathBuf| match folders {
-        Folders::Class if path.is_dir() => {
-            Ok(Some(StudentsIn { folder: class::unwrapped(path), ..StudentsIn::default() }))
-        }
+        Folders::Class if path.is_dir() => Ok(Some(class::unwrapped(path))),
         Folders::Clear if path.is_dir() => class::class_in(path),
         _ => Ok(None),
     };
     let classes: Vec<Result<Option<StudentsIn>, String>> = paths.iter().map(class_in).collect();
     let are_all = classes.iter().all(|class| matches!(class, Ok(Some(_))));
     let mut is_class_itself = Vec::new();
+    let mut found = BTreeMap::new();
     for (path, class) in paths.into_iter().zip(classes) {
         match class {
             // A student who hands in folders with others' names is no class.
@@ -99,13 +98,14 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
                 collected.notes.append(&mut notes);
                 collected.classes.push(class.folder);
                 is_class_itself.extend(class.classes);
+                found.extend(class.found);
             }
             Ok(None) => all.push((path.clone(), false)),
             Err(why) => collected.ambiguous.push(why),
         }
     }
-    let mut handed_in: Vec<HandedIn> =
-        all.iter().map(|(path, is_of_class)| from(path, *is_of_class)).collect();
+    let from = |(path, is_of_class): &(PathBuf, bool)| from(path, *is_of_class, found.remove(path));
+    let mut handed_in: Vec<HandedIn> = all.iter().map(from).collect();
     let paths: Vec<PathBuf> = all.into_iter().map(|(path, _)| path).collect();
     for (one, path) in handed_in.iter_mut().zip(&paths) {
         // It costs the others nothing, and gets a grade that says so.
@@ -128,7 +128,8 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     Collected { handed_in, ..collected }
 }
 
-fn from(path: &Path, is_of_class: bool) -> HandedIn {
+/// The submission at `path`, in which this has been `found` if it is a folder that was searched.
+fn from(path: &Path, is_of_class: bool, found: Option<Found>) -> HandedIn {
     let handed_in = if is_of_class && path.is_symlink() {
         // It may lead to another student's files, or anywhere.
         HandedIn {
@@ -136,7 +137,10 @@ fn from(path: &Path, is_of_class: bool) -> HandedIn {
             ..HandedIn::default()
         }
     } else if path.is_dir() {
-        from_folder(path)
+        match found.map_or_else(|| Found::search(path), Ok) {
+            Ok(found) => from_folder(path, found),
+            Err(error) => unread(&error),
+        }
     } else {
         from_file(path)
     };
@@ -177,11 +181,7 @@ fn from_file(path: &Path) -> HandedIn {
     handed_in
 }
 
-fn from_folder(folder: &Path) -> HandedIn {
-    let found = match Found::search(folder) {
-        Ok(found) => found,
-        Err(error) => return unread(&error),
-    };
+fn from_folder(folder: &Path, found: Found) -> HandedIn {
     let is_partial = found.is_partial;
     let (choice, notes) = found.choose(folder);
     let mut handed_in = HandedIn { notes, ..HandedIn::default() };

@@ -1,12 +1,15 @@
 //! Lists of a program that shares nothing with the port, right and wrong in many ways, are judged
 //! and named as `cases.csv` says.
 
+use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::support::{folder, json, run};
 use rayon::prelude::*;
 use serde::Deserialize;
+use serde_json::Value;
 
 #[derive(Deserialize)]
 struct Case {
@@ -54,33 +57,47 @@ fn other_programs_are_judged_and_named_rightly() {
     let Some(tracer) = tracer(folder.path(), &["-O2"]) else { return };
     let cases = csv::Reader::from_reader(include_str!("cases.csv").as_bytes());
     let cases: Vec<Case> = cases.into_deserialize().collect::<Result<_, _>>().expect("well formed");
-    let wrong: Vec<String> = cases
-        .par_iter()
-        .flat_map_iter(|case| {
-            let Case { name, switches, columns, digits, emitted, seed, .. } = case;
-            let list = folder.path().join(format!("{name}.csv"));
-            trace(&tracer, [&switches.replace('+', ","), emitted, seed], &list, [columns, digits]);
-            // With the number of photons known and not known.
-            [&[][..], &["--emitted", emitted]].map(|known| {
-                let words = ["grade", "--format", "json"].iter().chain(known);
-                let grade = json(run(words.map(|word| word.as_ref()).chain([list.as_os_str()])));
-                let misreading = grade["misreading"].as_str().unwrap_or_default();
-                let may_be_unnamed = case.misreading.strip_suffix('?');
-                let is_named = misreading == may_be_unnamed.unwrap_or(&case.misreading)
-                    || may_be_unnamed.is_some() && misreading.is_empty();
-                // Points strewn by hand, and photons at two places, have nothing of a photon map.
-                // Photons of so few emitted that have no name need a person's look.
-                let is_small = emitted.parse::<u64>().expect("a number") < 50_000;
-                let has_points = ["f08", "t17"].iter().any(|it| name.starts_with(it))
-                    || is_small && misreading.is_empty()
-                    || grade["score"].as_f64() > Some(0.0);
-                let is_right = grade["verdict"] == case.verdict.as_str() && is_named && has_points;
-                let found = format!("{name} {known:?}: {} {misreading}", grade["verdict"]);
-                (!is_right).then(|| format!("{found}, expected {} {}", case.verdict, case.what))
-            })
-        })
-        .flatten()
-        .collect();
+    let list = |case: &Case| folder.path().join(format!("{}.csv", case.name));
+    cases.par_iter().for_each(|case| {
+        let Case { switches, columns, digits, emitted, seed, .. } = case;
+        let settings = [&switches.replace('+', ","), emitted.as_str(), seed];
+        trace(&tracer, settings, &list(case), [columns, digits]);
+    });
+    // With the number of photons known and not known.
+    let numbers: BTreeSet<&str> = cases.iter().map(|case| case.emitted.as_str()).collect();
+    let mut wrong = Vec::new();
+    for known in numbers.into_iter().map(Some).chain([None]) {
+        let is_of_number = |case: &&Case| known.is_none_or(|known| case.emitted == known);
+        let cases: Vec<&Case> = cases.iter().filter(is_of_number).collect();
+        let words = ["grade", "--format", "json"].into_iter();
+        let words = words.chain(known.iter().flat_map(|known| ["--emitted", known]));
+        let lists = cases.iter().map(|case| list(case).into_os_string());
+        let grades = match json(run(words.map(OsString::from).chain(lists))) {
+            Value::Array(grades) => grades,
+            grade => vec![grade],
+        };
+        assert_eq!(grades.len(), cases.len());
+        for (Case { name, emitted, verdict, misreading: expected, what, .. }, grade) in
+            cases.into_iter().zip(grades)
+        {
+            let misreading = grade["misreading"].as_str().unwrap_or_default();
+            let may_be_unnamed = expected.strip_suffix('?');
+            let is_named = misreading == may_be_unnamed.unwrap_or(expected)
+                || may_be_unnamed.is_some() && misreading.is_empty();
+            // Points strewn by hand, and photons at two places, have nothing of a photon map.
+            // Photons of so few emitted that have no name need a person's look.
+            let is_small = emitted.parse::<u64>().expect("a number") < 50_000;
+            let has_points = ["f08", "t17"].iter().any(|it| name.starts_with(it))
+                || is_small && misreading.is_empty()
+                || grade["score"].as_f64() > Some(0.0);
+            if grade["verdict"] != verdict.as_str() || !is_named || !has_points {
+                let found = &grade["verdict"];
+                wrong.push(format!(
+                    "{name} {known:?}: {found} {misreading}, expected {verdict} {what}"
+                ));
+            }
+        }
+    }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
