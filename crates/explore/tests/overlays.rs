@@ -53,7 +53,7 @@ fn every_misreading_opens_where_it_differs() {
             &reference.run,
         );
         let page = write_page(name, &reference.exploration(Some(&comparison)).page());
-        browser.open(&page, "");
+        browser.load(&page, "");
         let text = |id: &str| browser.text_of(&format!("#{id}"));
         assert_eq!(text("verdict"), format!("{name}: {title}"));
         assert_eq!(text("step-title"), title, "{name}");

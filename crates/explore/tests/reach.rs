@@ -101,7 +101,7 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
     for (width, height) in [(390, 844), (844, 390)] {
         browser.size(width, height);
         for step in ["hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
-            browser.open(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
+            browser.load(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
             let is_in_sight = |selector: &str| {
                 let [_, top, _, bottom] = browser.edges(selector);
                 let place = format!("{selector}, {step} at {width} x {height}: {top} to {bottom}");

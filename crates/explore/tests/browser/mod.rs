@@ -152,12 +152,17 @@ impl Browser {
 
     /// Opens `page` at `link`, and waits until it is ready and drawn.
     pub fn open(&self, page: &Path, link: &str) {
+        self.load(page, link);
+        self.settle();
+    }
+
+    /// Opens `page` at `link`, and waits until it is ready.
+    pub fn load(&self, page: &Path, link: &str) {
         // Another link alone would not load the page again.
         self.call("Page.navigate", json!({ "url": "about:blank" }));
         let url = format!("file://{}{link}", page.display());
         self.call("Page.navigate", json!({ "url": url }));
         self.wait_for("document.body?.dataset.ready === 'yes'");
-        self.settle();
     }
 
     /// Waits until `condition` holds.
@@ -175,11 +180,7 @@ impl Browser {
             "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))";
         self.run(frame);
         // While the camera moves, a slow machine draws only some of the dots.
-        self.wait_for(
-            "!window.page?.view || (page.view.part === 1 && performance.now() - (page.view.moved \
-             ?? 0) > 300)",
-        );
-        self.run(frame);
+        self.wait_for("!window.page?.view || (page.view.part === 1 && !page.view.waiting)");
     }
 
     /// Makes the window `width` x `height` CSS pixels.
