@@ -95,9 +95,9 @@ pub fn edges(faces: &[PageFace]) -> Vec<[[f32; 3]; 2]> {
     faces.iter().flat_map(outline).collect()
 }
 
-/// The camera of the button, that with which the page opens, and that of the picture: the handout's.
-/// A camera has the point it turns around, the distance, the direction in radians, half the height of
-/// its picture at distance 1, and the size of the scene.
+/// The camera of the button, that with which the page opens, and that of the picture: the
+/// handout's. A camera has the point it turns around, the distance, the direction in radians, half
+/// the height of its picture at distance 1, and the size of the scene.
 pub fn cameras(is_handout: bool, faces: &[PageFace], size: f32) -> [Value; 3] {
     let handout = assignment8::create_camera(assignment8::WIDTH, assignment8::HEIGHT);
     let camera = |target: Vec3, distance: f32, yaw: f32, pitch: f32| {

@@ -81,7 +81,8 @@ fn it_works_on_a_phone() {
         }
     }
     // A box to tick is as large as its label.
-    let smallest = "Math.min(...[...document.querySelectorAll('button, input, select, summary, .chips a')]\
+    let smallest = "Math.min(...\
+         [...document.querySelectorAll('button, input, select, summary, .chips a')]\
          .filter((n) => n.offsetParent).map((n) => n.type === 'checkbox' ? n.parentNode : n)\
          .map((n) => n.getBoundingClientRect()).map((r) => Math.min(r.width, r.height)))";
     assert!(float(&browser.run(smallest)) >= 40.0, "{}", browser.run(smallest));
@@ -111,7 +112,8 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
             ["#over", "#say", "#forward", "#code .lit"].into_iter().for_each(is_in_sight);
             // Further down, the box and the buttons that step stay.
             browser.run(
-                "document.querySelector('#code figure:last-of-type').scrollIntoView({ block: 'end' })",
+                "document.querySelector('#code figure:last-of-type')\
+                 .scrollIntoView({ block: 'end' })",
             );
             assert!(float(&browser.run("window.scrollY")) > 0.0);
             is_in_sight("#forward");
@@ -221,7 +223,8 @@ fn shapes_tell_what_colors_tell() {
 fn no_label_covers_another() {
     let Some(browser) = open_handout("") else { return };
     let overlaps = "(() => { const spans = [...document.querySelectorAll('#over .label')]; const \
-         boxes = spans.filter((span) => span.style.display !== 'none').map((span) => span.getBoundingClientRect()); \
+         boxes = spans.filter((span) => span.style.display !== 'none')\
+         .map((span) => span.getBoundingClientRect()); \
          return boxes.some((a, i) => boxes.some((b, j) => i < j && a.left < b.right && b.left < \
          a.right && a.top < b.bottom && b.top < a.bottom)); })()";
     let mut steps = 0;
