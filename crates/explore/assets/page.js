@@ -126,7 +126,7 @@ function listen() {
     $("table").addEventListener(kind, showDots);
   $("table").onclick = keep;
   $("left").oninput = showDots;
-  $("photon").onchange = () => open(+$("photon").value, 0, "emission");
+  $("photon").onchange = () => open($("photon").valueAsNumber, 0, "emission");
   $("slider").oninput = () => go(+$("slider").value);
   window.onhashchange = () => followLink(location.hash);
   // The address lags behind what is open, so it may not change when a link is followed.

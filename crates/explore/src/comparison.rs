@@ -16,6 +16,9 @@ use super::misreading::ShownMisreading;
 use super::parting::PartingStep;
 use super::step_link;
 
+/// For lists of other random numbers, whose counts alone can be compared.
+const SAME_NUMBER: &str = "If it emitted another number of photons than this run, give it with \
+                           --photons: then the table compares the same number.";
 /// Up to so many differing dots are drawn large.
 const MOST_LARGE: u64 = 2000;
 
@@ -145,7 +148,10 @@ impl ListComparison {
         };
         let note = self.report.note.as_deref().map(sentence).unwrap_or_default();
         let (reason, advice) = match (self.misreading(), numbers.told()) {
-            (_, Some([meaning, advice])) => (meaning.to_owned(), advice.to_owned()),
+            (_, Some([meaning, advice])) => {
+                let advice = format!("{advice} {SAME_NUMBER}");
+                (meaning.to_owned(), advice)
+            }
             (Some(ShownMisreading { id, title, advice, .. }), _) if kind == "submission" => {
                 let reason = format!("{} This is the misreading {id}.", sentence(title));
                 (reason, (*advice).to_owned())
@@ -178,16 +184,14 @@ impl ListComparison {
     pub(crate) fn meta(&self) -> Value {
         let Differences { matched, missing, moved, extra, .. } = self.report.differences;
         let is_counted = self.random_numbers() != RandomNumbers::Other;
-        let legend =
-            [("matched", matched), ("missing", missing), ("moved", moved), ("extra", extra)].map(
-                |(kind, count)| {
-                    if is_counted {
-                        format!("{} {kind}", thousands(count))
-                    } else {
-                        kind.to_owned()
-                    }
-                },
-            );
+        let kinds = ["matched", "missing", "moved", "extra"];
+        let legend = if is_counted {
+            let counts = kinds.iter().zip([matched, missing, moved, extra]);
+            counts.map(|(kind, count)| format!("{} {kind}", thousands(count))).collect()
+        } else {
+            // Nothing is paired: each dot is of one of the two lists.
+            ["matched", "reference", "moved", "submission"].map(str::to_owned).to_vec()
+        };
         json!({
             "legend": legend,
             "areFew": is_counted && missing + moved + extra <= MOST_LARGE,

@@ -213,6 +213,9 @@ fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
         assert_eq!(browser.run("page.run.movedIndex.length === 0"), tells);
         assert!(text("reason").contains("random numbers"), "{}", text("reason"));
         assert!(text("advice").contains("photon-mapping grade"), "{}", text("advice"));
+        assert!(text("advice").contains("--photons"), "{}", text("advice"));
+        let of_two_lists = json!(["matched", "reference", "moved", "submission"]);
+        assert_eq!(browser.run("page.run.comparison.legend") == of_two_lists, tells);
         assert_eq!(browser.text("document.getElementById('comparison').className"), "unknown");
         // What the list tells is counted, and nothing else.
         let (surfaces, total) = &other.table;

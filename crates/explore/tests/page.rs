@@ -129,6 +129,15 @@ fn a_link_restores_its_step() {
     );
     browser.run("location.hash = '#photon=99999999999'");
     browser.wait_for("document.getElementById('no-story').textContent.includes('below 1,000,000')");
+    // Nothing but the number of a photon names one.
+    for typed in ["-1", "73.5", ""] {
+        browser.run("document.getElementById('no-story').textContent = ''");
+        browser.run(&format!(
+            "{{ const field = document.getElementById('photon'); field.value = '{typed}'; \
+             field.dispatchEvent(new Event('change')); }}"
+        ));
+        assert!(browser.text_of("#no-story").contains("a whole number"), "{typed}");
+    }
     // So it is when the page opens on such a link, beside the story of the first photon.
     browser.open(&handout().1, "#photon=74");
     let no_story = browser.text_of("#no-story");
