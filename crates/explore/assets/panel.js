@@ -15,7 +15,7 @@ function say(words, command = "") {
 /** Opens `photon` at the step `name` of `bounce`, or as near to it as its path goes. */
 function open(photon, bounce, name) {
   if (!Number.isInteger(photon) || photon < 0 || photon >= run.emitted)
-    return say(`Expected a whole number from 0 on and below ${thousands(run.emitted)}.`);
+    return say(`Expected a whole number, 0 or more and below ${thousands(run.emitted)}.`);
   if (photon !== page.photon) {
     const story = storyOf(run, photon);
     if (!story)

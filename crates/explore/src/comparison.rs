@@ -17,8 +17,9 @@ use super::parting::PartingStep;
 use super::step_link;
 
 /// For lists of other random numbers, whose counts alone can be compared.
-const SAME_NUMBER: &str = "If it emitted another number of photons than this run, give it with \
-                           --photons: then the table compares the same number.";
+const SAME_NUMBER: &str = "If your program emitted another number of photons than this page, run \
+                           explore again with --photons and that number. Else the table compares \
+                           runs of different sizes.";
 /// Up to so many differing dots are drawn large.
 const MOST_LARGE: u64 = 2000;
 
