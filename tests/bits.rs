@@ -3,11 +3,9 @@
 //! `INSTA_UPDATE=always cargo test --workspace` refreshes everything in `golden/`; nothing else
 //! writes there. See the value-stability policy in `CHANGELOG.md` before doing so.
 
-mod common;
-
 use std::fmt::Write as _;
 
-use common::{closed_cube, handout, hash, list};
+use crate::common::{closed_cube, handout, hash, list};
 use glam::Vec3;
 use photon_mapping::photon_list::{PhotonRecord, records, trace};
 use photon_mapping::random::photon_random;

@@ -1,8 +1,6 @@
 //! Photon Emission: `PointLight::generate_random_photon_ray`.
 
-mod common;
-
-use common::{draws, is_unit, light, standard_errors};
+use crate::common::{draws, is_unit, light, standard_errors};
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 use proptest::prelude::*;

@@ -1,8 +1,6 @@
 //! Hemisphere Sampling: `sample_hemisphere`.
 
-mod common;
-
-use common::{LARGEST_BELOW_ONE, is_unit, standard_errors, uniform};
+use crate::common::{LARGEST_BELOW_ONE, is_unit, standard_errors, uniform};
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 use photon_mapping::rendering::sampling::sample_hemisphere;

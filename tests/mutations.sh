@@ -22,8 +22,10 @@ while IFS='|' read -r file from to test_file tests; do
         echo "$file: expected '$from', found no such text" >&2
         exit 1
     fi
+    # The tests of one section take less time to compile.
+    printf 'mod common;\nmod %s;\n' "$test_file" >"$copy/tests/assignment.rs"
     printf '%s\n' "${original/"$from"/"$to"}" >"$copy/$file"
-    output=$(cd "$copy" && cargo test --quiet --profile dev --test "$test_file" 2>&1 </dev/null) || true
+    output=$(cd "$copy" && cargo test --quiet --profile dev --test assignment 2>&1 </dev/null) || true
     if grep -q '^error' <<<"$output" && ! grep -q '^test result' <<<"$output"; then
         echo "$file: '$to' does not compile" >&2
         echo "$output" >&2
@@ -32,7 +34,7 @@ while IFS='|' read -r file from to test_file tests; do
     for test in $tests; do
         grep -q "\`$test\`" "$root/ASSIGNMENT.md" ||
             { echo "ASSIGNMENT.md: expected the test '$test' in its table" >&2; exit 1; }
-        if ! grep -q "^    $test\$" <<<"$output"; then
+        if ! grep -q "^    $test_file::$test\$" <<<"$output"; then
             echo "SURVIVED: $file: '$from' -> '$to': $test did not fail" >&2
             survivors=$((survivors + 1))
         fi

@@ -1,8 +1,6 @@
 //! What a ray meets, where rounding could decide: edges, planes, starts, slivers.
 
-mod common;
-
-use common::{handout, scene_of, square};
+use crate::common::{handout, scene_of, square};
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 use photon_mapping::scene::ray::{IntersectionState, Ray};

@@ -1,10 +1,8 @@
 //! The picture: the photon map's one question, and the pixels.
 
-mod common;
-
 use std::path::Path;
 
-use common::handout;
+use crate::common::handout;
 use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::rendering::image_writer::take_picture;

@@ -1,8 +1,6 @@
 //! Photon Scattering/Absorption: the roulette of `trace_photon`.
 
-mod common;
-
-use common::{LARGEST_BELOW_ONE, closed_cube, trace_scripted};
+use crate::common::{LARGEST_BELOW_ONE, closed_cube, trace_scripted};
 use glam::Vec3;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use photon_mapping::scene::ray::Ray;

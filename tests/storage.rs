@@ -1,8 +1,6 @@
 //! Photon Storage: what `trace_photon` stores, where, and when it ends.
 
-mod common;
-
-use common::{closed_cube, handout, path_of_one_hit, trace_scripted};
+use crate::common::{closed_cube, handout, path_of_one_hit, trace_scripted};
 use glam::Vec3;
 use photon_mapping::rendering::photon_mapping_renderer::{
     PathVertex, Photon, PhotonMappingRenderer,

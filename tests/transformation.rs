@@ -1,8 +1,6 @@
 //! Hemisphere Ray Transformation: `tangent_frame`.
 
-mod common;
-
-use common::{is_unit, unit_normal};
+use crate::common::{is_unit, unit_normal};
 use glam::Vec3;
 use photon_mapping::assignment8;
 use photon_mapping::rendering::sampling::tangent_frame;

@@ -1,8 +1,6 @@
 //! The whole run, for which every section is needed: long paths, counts, places.
 
-mod common;
-
-use common::{
+use crate::common::{
     LARGEST_BELOW_ONE, SECTIONS, closed_cube, deviations, handout, list, path_of_one_hit,
     trace_scripted,
 };

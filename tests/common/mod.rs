@@ -1,5 +1,4 @@
 //! Scenes, scripted random numbers and strategies that several tests use.
-#![allow(dead_code, reason = "no test uses all of them")]
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};

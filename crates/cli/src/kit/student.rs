@@ -69,7 +69,6 @@ pub fn files() -> Vec<KitFile> {
         KitFile::new("Cargo.lock", lock.of("photon-mapping")),
         KitFile::new("README.md", include_str!("../../assets/student/README.md")),
         KitFile::new(".gitignore", "/target\n/out\n*.snap.new\n*.proptest-regressions\n"),
-        KitFile::new("tests/assignment.rs", all_tests()),
     ];
     for (path, content) in PORT {
         if *path == "Cargo.lock" || is_of_this_project(path) {
@@ -136,22 +135,6 @@ fn manifest(lock: &Lock) -> String {
     while let Some((before, after)) = text.split_once("{version of ") {
         let (name, after) = after.split_once('}').expect("a name has an end");
         text = format!("{before}{}{after}", lock.version(name));
-    }
-    text
-}
-
-/// All tests in one program: `cargo test` stops after the first program that fails, and students
-/// want to see every section.
-fn all_tests() -> String {
-    let mut text = String::from("//! The tests of all sections, in one program.\n\n");
-    for (path, _) in PORT {
-        let Some(name) = path.strip_prefix("tests/").and_then(|name| name.strip_suffix(".rs"))
-        else {
-            continue;
-        };
-        if !name.contains('/') && !is_of_this_project(path) {
-            text += &format!("#[path = \"{name}.rs\"]\nmod {name};\n");
-        }
     }
     text
 }
