@@ -1,49 +1,22 @@
 //! Faults that look like something else: what is said of them, and what is not.
 
-use std::sync::LazyLock;
-
 use glam::Vec3;
-use grading::crowding::crowding;
-use grading::judge_list::{Expectations, Judgment, judge};
-use grading::observation::{Observation, observe};
-use grading::places::Places;
-use grading::signature::Signatures;
-use grading::verdict::Weight;
-use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
 use photon_mapping::random::photon_random;
 use variants::hypotheses::{misreadings, no_offset};
 use variants::reading::Reading;
-use variants::variation::{Simulation, Storage, Transformation, Variation};
+use variants::variation::{Storage, Transformation, Variation};
 
-const EMITTED: u64 = 200_000;
-
-static EXPECTATIONS: LazyLock<Expectations> =
-    LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
-
-fn records(variation: Variation, seed: u64, emitted: u64) -> Vec<PhotonRecord> {
-    Simulation::new(variation, seed, emitted, 1000).trace(0..emitted)
-}
-
-fn observed(records: Vec<PhotonRecord>, columns: Columns) -> Observation {
-    let light = create_scene().lights()[0].position.as_dvec3();
-    observe(&PhotonList { columns, records }, &EXPECTATIONS.places, light)
-}
-
-fn positions_of(records: &[PhotonRecord]) -> Observation {
-    let bare = |record: &PhotonRecord| PhotonRecord { position: record.position, ..ABSENT };
-    observed(records.iter().map(bare).collect(), Columns::default())
-}
+use super::{EMITTED, EXPECTATIONS, name, observed, positions_of, records};
+use crate::crowding::crowding;
+use crate::judge_list::{Judgment, judge};
+use crate::verdict::Weight;
 
 fn faults(judgment: &Judgment) -> Vec<&'static str> {
     let faults = judgment.findings.iter().filter(|finding| finding.is_fault());
     faults.map(|fault| fault.check).collect()
-}
-
-fn name(judgment: &Judgment) -> Option<&str> {
-    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
 
 #[test]

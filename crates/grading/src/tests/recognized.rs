@@ -1,28 +1,21 @@
 //! What was made up gets no points, and whatever comes of tracing keeps those it has.
 
-#[path = "../examples/common/made_up.rs"]
+#[path = "../../examples/common/made_up.rs"]
 mod made_up;
 
-use std::sync::LazyLock;
-
-use grading::judge_list::Expectations;
-use grading::picture::judge::judge_dots;
-use grading::picture::view::PIXELS;
-use grading::places::Places;
-use grading::recognized::{RECOGNIZABLE, RECOGNIZED, TELLING, scored_as};
-use grading::signature::Signatures;
-use grading::submission::{Settings, Submission, grade_list};
-use grading::verdict::{Finding, Grade, Verdict};
 use made_up::{kinds, list, patch_of_noise};
 use photon_list::reader::PhotonList;
-use photon_mapping::assignment8::create_scene;
 use photon_mapping::random::photon_random;
 use rayon::prelude::*;
 use variants::hypotheses::misreadings;
 use variants::variation::{Simulation, Variation};
 
-static EXPECTATIONS: LazyLock<Expectations> =
-    LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
+use super::EXPECTATIONS;
+use crate::picture::judge::judge_dots;
+use crate::picture::view::PIXELS;
+use crate::recognized::{RECOGNIZABLE, RECOGNIZED, TELLING, scored_as};
+use crate::submission::{Settings, Submission, grade_list};
+use crate::verdict::{Finding, Grade, Verdict};
 
 fn grade(list: PhotonList, emitted: Option<u64>) -> Grade {
     let settings = Settings { emitted, ..Settings::default() };

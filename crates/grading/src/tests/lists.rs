@@ -5,17 +5,7 @@ use std::sync::LazyLock;
 
 use fast::lanes::offset::Offset;
 use glam::{DVec3, Vec3, Vec3Swizzles};
-use grading::expected::{Expected, fit_size};
-use grading::judge_list::{Expectations, Judgment, SIGNIFICANCE, judge};
-use grading::observation::{CountsByPlace, Observation, observe};
-use grading::places::{Place, Places};
-use grading::policy::Policy;
-use grading::recognized::TELLING;
-use grading::signature::{Signature, Signatures, classes, measure};
-use grading::statistics::{corrected, normal_tail};
-use grading::verdict::{Finding, Verdict, Weight};
 use oracle::table::ExpectedTable;
-use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
 use photon_mapping::assignment8::create_scene;
 use photon_mapping::photon_list::PhotonRecord;
@@ -28,32 +18,18 @@ use variants::pairs::pairs;
 use variants::reading::Reading;
 use variants::variation::{Hemisphere, Roulette, Simulation, Storage, Variation};
 
-const EMITTED: u64 = 200_000;
+use super::{EMITTED, EXPECTATIONS, name, observed, positions_of, records};
+use crate::expected::{Expected, fit_size};
+use crate::judge_list::{Expectations, Judgment, SIGNIFICANCE, judge};
+use crate::observation::{CountsByPlace, Observation};
+use crate::places::{Place, Places};
+use crate::policy::Policy;
+use crate::recognized::TELLING;
+use crate::signature::{Signature, Signatures, classes, measure};
+use crate::statistics::{corrected, normal_tail};
+use crate::verdict::{Finding, Verdict, Weight};
 
-static PLACES: LazyLock<Places> = LazyLock::new(|| Places::new(&create_scene()));
-static EXPECTATIONS: LazyLock<Expectations> =
-    LazyLock::new(|| Expectations::new(PLACES.clone(), Signatures::of_assignment8()));
-
-fn records(variation: Variation, seed: u64, emitted: u64) -> Vec<PhotonRecord> {
-    Simulation::new(variation, seed, emitted, 1000).trace(0..emitted)
-}
-
-fn observed(records: Vec<PhotonRecord>, columns: Columns) -> Observation {
-    observe(
-        &PhotonList { columns, records },
-        &PLACES,
-        create_scene().lights()[0].position.as_dvec3(),
-    )
-}
-
-/// What is seen of positions alone.
-fn positions_of(records: &[PhotonRecord]) -> Observation {
-    let bare = |record: &PhotonRecord| PhotonRecord {
-        position: record.position,
-        ..photon_list::record::ABSENT
-    };
-    observed(records.iter().map(bare).collect(), Columns::default())
-}
+static PLACES: LazyLock<Places> = LazyLock::new(|| EXPECTATIONS.places.clone());
 
 fn is_incorrect(judgment: &Judgment) -> bool {
     judgment.findings.iter().any(|finding| finding.is_fault())
@@ -64,16 +40,12 @@ fn says_direct(judgment: &Judgment) -> bool {
     judgment.findings.iter().any(|finding| finding.check == "indirect only" && finding.is_fault())
 }
 
-fn name(judgment: &Judgment) -> Option<&str> {
-    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
-}
-
 #[test]
 fn kept_signatures_are_those_of_the_tracer() {
     let kept = Signatures::of_assignment8();
     let check = |hypothesis: &Hypothesis, kept: &_, emitted| {
         let (measured, _) = measure(hypothesis, &PLACES, emitted, 1000);
-        let kept: &grading::signature::Signature = kept;
+        let kept: &Signature = kept;
         let counts: Vec<f64> = measured.classes.iter().map(|mean| mean * emitted as f64).collect();
         let law = Expected { slack: vec![0.0; counts.len()], ..kept.of_classes(emitted as f64) };
         let p_value = law.law(false).fit(&counts).p_value;

@@ -1,14 +1,7 @@
 //! Planted faults that are not in the table of misreadings: they are seen where they show, and get
 //! no name.
 
-use std::sync::LazyLock;
-
 use glam::Vec3;
-use grading::judge_list::{Expectations, Judgment, judge};
-use grading::observation::observe;
-use grading::places::Places;
-use grading::recognized::RECOGNIZED;
-use grading::signature::Signatures;
 use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
 use photon_mapping::assignment8::create_scene;
@@ -19,10 +12,10 @@ use variants::variation::{
     Emission, Hemisphere, Roulette, Simulation, Start, Storage, Transformation, Variation,
 };
 
-const EMITTED: u64 = 200_000;
-
-static EXPECTATIONS: LazyLock<Expectations> =
-    LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
+use super::{EMITTED, EXPECTATIONS, name};
+use crate::judge_list::{Judgment, judge};
+use crate::observation::observe;
+use crate::recognized::RECOGNIZED;
 
 /// What a program makes of its numbers.
 type Warp = fn(&mut dyn FnMut() -> f32) -> f32;
@@ -186,10 +179,6 @@ fn judged(records: &[PhotonRecord]) -> [Judgment; 3] {
         judged(bare, Columns::default(), Some(EMITTED as f64)),
         judged(records.to_vec(), all, Some(EMITTED as f64)),
     ]
-}
-
-fn name(judgment: &Judgment) -> Option<&str> {
-    judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
 }
 
 fn is_incorrect(judgment: &Judgment) -> bool {

@@ -1,15 +1,9 @@
 //! What is hard to see is found nearly as often as can be, and few photons get no wrong name.
 
-#[path = "../examples/common/limit.rs"]
+#[path = "../../examples/common/limit.rs"]
 mod limit;
 
-use std::sync::LazyLock;
-
 use glam::Vec3;
-use grading::judge_list::{Expectations, Judgment, judge};
-use grading::observation::observe;
-use grading::places::Places;
-use grading::signature::{Known, Signature, Signatures};
 use limit::best_test;
 use photon_list::reader::PhotonList;
 use photon_list::record::{ABSENT, Columns};
@@ -18,11 +12,13 @@ use photon_mapping::photon_list::PhotonRecord;
 use rayon::prelude::*;
 use variants::variation::{Simulation, Variation};
 
+use super::EXPECTATIONS;
+use crate::judge_list::{Expectations, Judgment, judge};
+use crate::observation::observe;
+use crate::signature::{Known, Signature};
+
 /// Far from the seeds of the signatures.
 const FIRST_SEED: u64 = 9_000_000;
-
-static EXPECTATIONS: LazyLock<Expectations> =
-    LazyLock::new(|| Expectations::new(Places::new(&create_scene()), Signatures::of_assignment8()));
 
 fn ways(id: &str) -> Vec<&'static Known<Signature>> {
     let all = EXPECTATIONS.signatures.misreadings.iter();
