@@ -1,6 +1,6 @@
 //! What a submission shows, list or picture, as the one judge takes it: counts in cells.
 
-use super::expected::{Expected, Groups, fit_size};
+use super::expected::{Expected, Groups, fit_size, size_with_total};
 use super::kept::{Known, SignatureTable};
 use super::limits::LEAST_DEVIATIONS;
 use variants::hypotheses::Hypothesis;
@@ -60,6 +60,12 @@ pub(crate) trait Evidence {
     /// The means by facet where more paths have one of each length.
     fn other_lengths(&self, _: &Known<Self::Signature>, _emitted: f64) -> Vec<Vec<f64>> {
         Vec::new()
+    }
+
+    /// The number of photons emitted with which a hypothesis has as many counts.
+    fn size_by_total(&self, known: &Known<Self::Signature>) -> f64 {
+        let total = |emitted| self.means(known, emitted).iter().sum();
+        size_with_total(self.of_cells().iter().sum(), total)
     }
 
     /// The number of photons emitted with which a hypothesis fits the cells best.
