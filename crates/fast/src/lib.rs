@@ -11,3 +11,6 @@ pub mod in_order;
 pub mod lanes;
 pub mod trace;
 pub mod tree;
+
+#[cfg(test)]
+mod tests;

@@ -1,13 +1,14 @@
 //! The tree of large scenes never changes a hit.
 
-use fast::lanes::width::Width;
-use fast::tree::Tree;
 use glam::Vec3;
 use photon_mapping::random::photon_random;
 use photon_mapping::scene::Acceleration;
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
+
+use crate::lanes::width::Width;
+use crate::tree::Tree;
 
 fn brute_force(
     triangles: &[Triangle],

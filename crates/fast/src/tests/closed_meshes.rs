@@ -1,6 +1,5 @@
 //! Closed meshes: no ray finds a way out, and neither does a photon.
 
-use fast::tree::accelerate;
 use glam::{DVec3, Vec3};
 use photon_mapping::assignment8;
 use photon_mapping::random::photon_random;
@@ -14,6 +13,8 @@ use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::triangle::{ShearedRay, Triangle};
 use proptest::prelude::*;
 use rayon::prelude::*;
+
+use crate::tree::accelerate;
 
 /// A closed mesh of 20 * 4^`level` triangles about the origin: a sphere whose corners are moved to
 /// where `place` puts each, given its number.

@@ -1,0 +1,4 @@
+//! Large scenes, through their tree.
+
+mod closed_meshes;
+mod tree;
