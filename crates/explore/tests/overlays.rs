@@ -1,9 +1,7 @@
 //! Other lists laid over the run's: misreadings, submissions, and names that mean harm.
 
-mod browser;
-mod support;
-
-use browser::{Browser, launch};
+use crate::browser::{Browser, launch};
+use crate::support::{Traced, float, write_page};
 use compare::explain::explain;
 use compare::numbers::thousands;
 use explore::comparison::{ListComparison, Other};
@@ -14,7 +12,6 @@ use photon_list::record::Columns;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use serde_json::{Value, json};
-use support::{Traced, float, write_page};
 use variants::run::Run;
 use variants::section::Section;
 

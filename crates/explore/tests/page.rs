@@ -1,17 +1,15 @@
 //! The page as a student uses it: real clicks and keys in a real browser.
 
-mod browser;
-mod support;
-
 use std::collections::HashSet;
 use std::time::Instant;
 
-use browser::launch;
+use crate::browser::launch;
+use crate::support::{Traced, float, handout, open_handout, write_page};
+use compare::numbers::thousands;
 use explore::Exploration;
 use photon_mapping::assignment8;
 use photon_mapping::scene::ray::{IntersectionState, Ray};
 use serde_json::json;
-use support::{Traced, float, handout, open_handout, write_page};
 
 /// The pixels of all photons that the handout's camera sees.
 fn dots_in_sight(traced: &Traced) -> HashSet<(i64, i64)> {
@@ -234,6 +232,29 @@ fn a_scene_of_ones_own_is_explored() {
          all.length; i += 4) dots += all[i + 2] > all[i] + 60; return dots; })()";
     let drawn = float(&browser.run(drawn));
     assert!(drawn > 100.0, "{drawn}");
+    browser.has_been_quiet();
+}
+
+#[test]
+fn of_too_many_photons_whole_paths_are_shown_evenly() {
+    let Some(browser) = launch(true) else { return };
+    let mut traced = Traced::new(2000);
+    let records = traced.records.clone();
+    let paths: Vec<_> = records.chunk_by(|a, b| a.photon == b.photon).collect();
+    // Each path so often that there are twice as many photons as a page shows.
+    let times = 2_000_000 / records.len();
+    traced.records = paths.iter().flat_map(|path| path.repeat(times)).collect();
+    browser.open(&write_page("thinned", &traced.exploration(None).page()), "");
+    let shown = browser.run("page.run.paths.map(({ photon }) => photon)");
+    let every_second = paths.iter().skip(1).step_by(2);
+    let photons: Vec<_> = every_second.clone().map(|path| path[0].photon).collect();
+    assert_eq!(shown, json!(photons));
+    let kept: usize = every_second.map(|path| times * path.len()).sum();
+    let told = format!("Of these the page has {}, evenly thinned.", thousands(kept as u64));
+    assert!(browser.text_of("header p").contains(&told), "{told}");
+    // A photon that was left out may have stored some.
+    browser.run(&format!("page.open({}, 0, 'emission')", paths[0][0].photon));
+    assert!(browser.text_of("#no-story").contains("or the page leaves it out"));
     browser.has_been_quiet();
 }
 

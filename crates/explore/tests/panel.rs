@@ -1,14 +1,11 @@
 //! The panel's numbers, and the lines it lights, held to the story that `explain` tells.
 
-mod browser;
-mod support;
-
-use browser::launch;
+use crate::browser::launch;
+use crate::support::{Traced, handout, open_handout, write_page};
 use compare::explain::{Ending, Hit, Story, explain};
 use photon_mapping::assignment8;
 use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use serde_json::{Value, json};
-use support::{Traced, handout, open_handout, write_page};
 use variants::run::Run;
 
 /// Each step of the photon that is open: its bounce, name, values beside the code and in the words,

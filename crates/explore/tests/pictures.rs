@@ -1,16 +1,13 @@
 //! The pictures of `docs/explore.md`. With `UPDATE_PICTURES=1` in the environment, this test takes
 //! them again: what browsers draw differs by their fonts, so it compares no pixels.
 
-mod browser;
-mod support;
-
 use std::path::{Path, PathBuf};
 
-use browser::launch;
+use crate::browser::launch;
+use crate::support::{handout, write_page};
 use explore::comparison::{ListComparison, Other};
 use explore::misreading;
 use photon_list::reader::PhotonList;
-use support::{handout, write_page};
 
 const SIZE: (u32, u32) = (1280, 960);
 

@@ -1,11 +1,8 @@
 //! The page for everyone: by keyboard and by touch, on small and large screens, for the
 //! color-blind, with less motion, and without WebGL.
 
-mod browser;
-mod support;
-
-use browser::launch;
-use support::{float, handout, open_handout};
+use crate::browser::launch;
+use crate::support::{float, handout, open_handout};
 
 #[test]
 fn the_keyboard_alone_is_enough() {

@@ -2,15 +2,15 @@
 //!
 //! The crates that do this bring 80 others and a minute of compilation, most of it for a Rust type
 //! for each of the protocol's messages. These tests need nine of them, and `serde_json` is here.
-#![allow(dead_code, reason = "no test uses all of it")]
-
 mod input;
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Cursor, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::process::{ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use image::RgbImage;
@@ -19,106 +19,147 @@ use serde_json::{Value, json};
 /// No answer takes longer, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A page in a browser of its own. The browser ends when this is dropped.
-pub struct Browser {
-    child: Child,
-    to: RefCell<ChildStdin>,
-    from: Receiver<Value>,
-    next_id: Cell<u64>,
-    session: String,
-    /// What the page logged, and what it asked the network for.
-    events: RefCell<Vec<Value>>,
-    _profile: tempfile::TempDir,
+/// The Chromium of all tests. It ends with them, when its pipes close.
+struct Chromium {
+    to: Mutex<ChildStdin>,
+    /// Who reads the messages of each session, by its name. That of the whole browser has none.
+    readers: Arc<Mutex<HashMap<String, Sender<Value>>>>,
+    whole: Mutex<Session>,
 }
 
-/// A browser, with WebGL in software or with none. Nothing, with a message, where there is no
+/// One side of a conversation.
+struct Session {
+    name: String,
+    from: Receiver<Value>,
+    next_id: u64,
+    /// What was told without being asked for.
+    events: Vec<Value>,
+}
+
+/// A page in a window of its own, without the storage and cache of others. The window closes when
+/// this is dropped.
+pub struct Browser {
+    chromium: &'static Chromium,
+    session: RefCell<Session>,
+    context: Value,
+}
+
+/// A window, with WebGL in software or with none. Nothing, with a message, where there is no
 /// Chromium; where `PHOTON_MAPPING_CHROMIUM` is set there must be one.
 pub fn launch(with_webgl: bool) -> Option<Browser> {
+    static CHROMIUM: OnceLock<Option<Chromium>> = OnceLock::new();
     let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
-    let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
-    match found {
-        Ok(_) => Some(Browser::start(with_webgl)),
-        Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
-        Err(error) => {
-            eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
-            None
+    let started = CHROMIUM.get_or_init(|| {
+        let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
+        match found {
+            Ok(_) => Some(Chromium::start()),
+            Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
+            Err(error) => {
+                eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
+                None
+            }
         }
+    });
+    let browser = started.as_ref().map(Browser::new)?;
+    if !with_webgl {
+        let without = "HTMLCanvasElement.prototype.getContext = () => null";
+        browser.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": without }));
     }
+    Some(browser)
 }
 
-impl Browser {
-    fn start(with_webgl: bool) -> Self {
-        let profile = tempfile::tempdir().expect("a folder can be made");
-        let gl: &[&str] = if with_webgl {
-            &["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-        } else {
-            &["--disable-3d-apis"]
-        };
-        // The protocol's pipes are the descriptors 3 and 4.
+impl Chromium {
+    fn start() -> Self {
+        // The protocol's pipes are the descriptors 3 and 4. The shell removes what Chromium leaves.
+        let script = "profile=$(mktemp -d); \"$@\" \"--user-data-dir=$profile\" about:blank \
+                      3<&0 4>&1 </dev/null >/dev/null 2>&1; rm -rf \"$profile\"";
         let mut child = Command::new("sh")
-            .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>&1", "sh", "chromium"])
+            .args(["-c", script, "sh", "chromium"])
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"])
             .args(["--no-first-run", "--disable-background-networking"])
             .args(["--disable-component-update", "--disable-sync", "--remote-debugging-pipe"])
-            .args(gl)
-            .arg(format!("--user-data-dir={}", profile.path().display()))
-            .arg("about:blank")
+            .args(["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .expect("a shell can be run");
-        let to = child.stdin.take().expect("piped");
+        let to = Mutex::new(child.stdin.take().expect("piped"));
         let mut messages = BufReader::new(child.stdout.take().expect("piped"));
-        let (sender, from) = channel();
+        let readers: Arc<Mutex<HashMap<String, Sender<Value>>>> = Arc::default();
+        let whole = Mutex::new(Session::new("", &readers));
+        let told = Arc::clone(&readers);
         std::thread::spawn(move || {
             let mut message = Vec::new();
             while messages.read_until(0, &mut message).is_ok_and(|length| length > 0) {
                 message.pop();
-                let value = serde_json::from_slice(&message).expect("messages are JSON");
+                let value: Value = serde_json::from_slice(&message).expect("messages are JSON");
                 message.clear();
-                if sender.send(value).is_err() {
-                    break;
+                let name = value["sessionId"].as_str().unwrap_or_default();
+                if let Some(reader) = told.lock().expect("no reader panics").get(name) {
+                    // A window that was closed reads no more.
+                    let _ = reader.send(value);
                 }
             }
         });
-        let mut browser = Self {
-            child,
-            to: RefCell::new(to),
-            from,
-            next_id: Cell::new(1),
-            session: String::new(),
-            events: RefCell::default(),
-            _profile: profile,
-        };
-        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
-        let attach = json!({ "targetId": target["targetId"], "flatten": true });
-        let attached = browser.call("Target.attachToTarget", attach);
-        browser.session = attached["sessionId"].as_str().expect("a name").to_owned();
+        Self { to, readers, whole }
+    }
+
+    /// Calls a method of the protocol in `session`, and gives its result.
+    fn call(&self, session: &mut Session, method: &str, parameters: Value) -> Value {
+        let id = session.next_id;
+        session.next_id += 1;
+        let mut message = json!({ "id": id, "method": method, "params": parameters });
+        if !session.name.is_empty() {
+            message["sessionId"] = json!(session.name);
+        }
+        let mut to = self.to.lock().expect("no writer panics");
+        write!(to, "{message}\0").and_then(|()| to.flush()).expect("the browser is running");
+        drop(to);
+        loop {
+            let answer = session.from.recv_timeout(PATIENCE);
+            let answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
+            if answer["id"] == id {
+                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+                return answer["result"].clone();
+            }
+            session.events.push(answer);
+        }
+    }
+}
+
+impl Session {
+    fn new(name: &str, readers: &Mutex<HashMap<String, Sender<Value>>>) -> Self {
+        let (reader, from) = channel();
+        readers.lock().expect("no reader panics").insert(name.to_owned(), reader);
+        Self { name: name.to_owned(), from, next_id: 1, events: Vec::new() }
+    }
+}
+
+impl Browser {
+    fn new(chromium: &'static Chromium) -> Self {
+        let mut whole = chromium.whole.lock().expect("the browser answers");
+        let mut call = |method, parameters| chromium.call(&mut whole, method, parameters);
+        let context = call("Target.createBrowserContext", json!({}))["browserContextId"].take();
+        let target = json!({ "url": "about:blank", "browserContextId": context });
+        let target = call("Target.createTarget", target)["targetId"].take();
+        let attach = json!({ "targetId": target, "flatten": true });
+        let attached = call("Target.attachToTarget", attach);
+        drop(whole);
+        let session =
+            Session::new(attached["sessionId"].as_str().expect("a name"), &chromium.readers);
+        let browser = Self { chromium, session: RefCell::new(session), context };
         for domain in ["Page", "Runtime", "Log", "Network"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
+        // As if it were the only window.
+        browser.call("Emulation.setFocusEmulationEnabled", json!({ "enabled": true }));
         browser.size(1280, 800);
         browser
     }
 
     /// Calls a method of the protocol and gives its result.
     pub fn call(&self, method: &str, parameters: Value) -> Value {
-        let id = self.next_id.replace(self.next_id.get() + 1);
-        let mut message = json!({ "id": id, "method": method, "params": parameters });
-        if !self.session.is_empty() {
-            message["sessionId"] = json!(self.session);
-        }
-        let mut to = self.to.borrow_mut();
-        write!(to, "{message}\0").and_then(|()| to.flush()).expect("the browser is running");
-        loop {
-            let answer = self.from.recv_timeout(PATIENCE);
-            let answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
-            if answer["id"] == id {
-                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-                return answer["result"].clone();
-            }
-            self.events.borrow_mut().push(answer);
-        }
+        self.chromium.call(&mut self.session.borrow_mut(), method, parameters)
     }
 
     /// The value of the JavaScript `expression`, awaited.
@@ -212,7 +253,7 @@ impl Browser {
     /// Checks that the page has caused no error, and asked for nothing but itself.
     pub fn has_been_quiet(&self) {
         self.run("0");
-        for event in self.events.borrow().iter() {
+        for event in &self.session.borrow().events {
             let (method, parameters) = (event["method"].as_str(), &event["params"]);
             match method {
                 Some("Runtime.exceptionThrown") => panic!("{parameters}"),
@@ -235,7 +276,9 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        if let Ok(mut whole) = self.chromium.whole.lock() {
+            let close = json!({ "browserContextId": self.context });
+            self.chromium.call(&mut whole, "Target.disposeBrowserContext", close);
+        }
     }
 }

@@ -1,5 +1,4 @@
 //! A run of the reference with all that a page of it needs.
-#![allow(dead_code, reason = "no test uses all of it")]
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
