@@ -2,11 +2,11 @@
 //! color-blind, with less motion, and without WebGL.
 
 use crate::browser::launch;
-use crate::support::{float, handout, open_handout};
+use crate::support::{float, open_short, short};
 
 #[test]
 fn the_keyboard_alone_is_enough() {
-    let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
+    let Some(browser) = open_short("#photon=73&bounce=0&step=emission") else { return };
     let link = || browser.text("page.link");
     for (key, then) in [
         ("ArrowRight", "bounce=0&step=hit"),
@@ -57,10 +57,10 @@ fn the_keyboard_alone_is_enough() {
             "page.looks.filter((look, i) => i % 2 === 1 && look === {state}).length"
         ))) as u64
     };
-    let of_cell = handout().0.table.0[0].by_bounce[0].stored;
+    let of_cell = short().0.table.0[0].by_bounce[0].stored;
     assert_eq!(states(2), of_cell);
     browser.press("Enter");
-    assert_eq!(states(0), handout().0.records.len() as u64 - of_cell);
+    assert_eq!(states(0), short().0.records.len() as u64 - of_cell);
     browser.has_been_quiet();
 }
 
@@ -68,7 +68,7 @@ fn the_keyboard_alone_is_enough() {
 fn it_works_on_a_phone() {
     let Some(browser) = launch(true) else { return };
     browser.size(390, 844);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    browser.open(&short().1, "#photon=73&bounce=0&step=emission");
     for scheme in ["light", "dark"] {
         browser.media("prefers-color-scheme", scheme);
         for step in ["emission", "hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
@@ -98,8 +98,10 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
     let Some(browser) = launch(true) else { return };
     for (width, height) in [(390, 844), (844, 390)] {
         browser.size(width, height);
+        browser.load(&short().1, "");
         for step in ["hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
-            browser.load(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
+            browser.run("window.scrollTo(0, 0)");
+            browser.run(&format!("page.open(73, 0, '{step}')"));
             let is_in_sight = |selector: &str| {
                 let [_, top, _, bottom] = browser.edges(selector);
                 let place = format!("{selector}, {step} at {width} x {height}: {top} to {bottom}");
@@ -128,7 +130,7 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
 #[test]
 fn without_webgl_the_rest_works() {
     let Some(browser) = launch(false) else { return };
-    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    browser.open(&short().1, "#photon=73&bounce=0&step=roulette");
     assert!(browser.text_of("#trouble").contains("WebGL"));
     browser.wait_for("document.getElementById('picture').naturalWidth === 640");
     let is_seen = "document.getElementById('view').checkVisibility({ visibilityProperty: true })";
@@ -144,7 +146,7 @@ fn without_webgl_the_rest_works() {
 fn two_fingers_zoom_and_one_turns() {
     let Some(browser) = launch(true) else { return };
     browser.size(390, 844);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    browser.open(&short().1, "#photon=73&bounce=0&step=emission");
     let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
     let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
     let [left, top, right, bottom] = browser.edges("#view");
@@ -160,7 +162,7 @@ fn two_fingers_zoom_and_one_turns() {
 fn it_fills_a_projector() {
     let Some(browser) = launch(true) else { return };
     browser.size(1920, 1080);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    browser.open(&short().1, "#photon=73&bounce=0&step=roulette");
     let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
     assert_eq!(browser.run(is_too_wide), false);
     let [left, _, right, _] = browser.edges("#view");
@@ -172,7 +174,7 @@ fn it_fills_a_projector() {
 
 #[test]
 fn a_lost_graphics_context_leaves_picture_table_and_story() {
-    let Some(browser) = open_handout("#photon=73&bounce=0&step=roulette") else { return };
+    let Some(browser) = open_short("#photon=73&bounce=0&step=roulette") else { return };
     browser.run("page.view.gl.getExtension('WEBGL_lose_context').loseContext()");
     browser.wait_for("document.getElementById('picture').naturalWidth === 640");
     browser.press("ArrowRight");
@@ -184,7 +186,7 @@ fn a_lost_graphics_context_leaves_picture_table_and_story() {
 
 #[test]
 fn shapes_tell_what_colors_tell() {
-    let Some(browser) = open_handout("#photon=73") else { return };
+    let Some(browser) = open_short("#photon=73") else { return };
     // The pixels that a large dot of each shape colors.
     let pixels = "(() => { const v = page.view, gl = v.gl, drawn = {}; \
          v.layers.walls.count = 0; for (let shape = 0; shape < 6; shape++) { \
@@ -218,7 +220,7 @@ fn shapes_tell_what_colors_tell() {
 
 #[test]
 fn no_label_covers_another() {
-    let Some(browser) = open_handout("") else { return };
+    let Some(browser) = open_short("") else { return };
     let overlaps = "(() => { const spans = [...document.querySelectorAll('#over .label')]; const \
          boxes = spans.filter((span) => span.style.display !== 'none')\
          .map((span) => span.getBoundingClientRect()); \
@@ -226,14 +228,13 @@ fn no_label_covers_another() {
          a.right && a.top < b.bottom && b.top < a.bottom)); })()";
     let mut steps = 0;
     for photon in [73, 85, 3101] {
-        browser.run(&format!("page.open({photon}, 0, 'emission')"));
-        let count = float(&browser.run("page.steps.length")) as usize;
-        for step in 0..count {
-            browser.run(&format!("page.go({step})"));
-            browser.settle();
-            assert_eq!(browser.run(overlaps), false, "photon {photon}, step {step}");
-        }
-        steps += count;
+        let of_photon = browser.run(&format!(
+            "page.open({photon}, 0, 'emission'); page.steps.map((step, at) => {{ page.go(at); \
+             page.view.drawNow(); return {overlaps}; }})"
+        ));
+        let of_photon = of_photon.as_array().expect("a list");
+        assert!(of_photon.iter().all(|overlaps| overlaps == false), "{photon}: {of_photon:?}");
+        steps += of_photon.len();
     }
     assert!(steps > 30, "{steps}");
 }

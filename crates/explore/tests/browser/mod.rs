@@ -25,6 +25,8 @@ struct Chromium {
     /// Who reads the messages of each session, by its name. That of the whole browser has none.
     readers: Arc<Mutex<HashMap<String, Sender<Value>>>>,
     whole: Mutex<Session>,
+    /// Windows that no test uses. To open one, and its first page, takes a second.
+    free_windows: Mutex<Vec<Value>>,
 }
 
 /// One side of a conversation.
@@ -36,12 +38,11 @@ struct Session {
     events: Vec<Value>,
 }
 
-/// A page in a window of its own, without the storage and cache of others. The window closes when
-/// this is dropped.
+/// A page in a window of its own.
 pub struct Browser {
     chromium: &'static Chromium,
     session: RefCell<Session>,
-    context: Value,
+    window: Value,
 }
 
 /// A window, with WebGL in software or with none. Nothing, with a message, where there is no
@@ -101,7 +102,12 @@ impl Chromium {
                 }
             }
         });
-        Self { to, readers, whole }
+        Self { to, readers, whole, free_windows: Mutex::default() }
+    }
+
+    /// Calls a method of the protocol for the whole browser, and gives its result.
+    fn call_whole(&self, method: &str, parameters: Value) -> Value {
+        self.call(&mut self.whole.lock().expect("the browser answers"), method, parameters)
     }
 
     /// Calls a method of the protocol in `session`, and gives its result.
@@ -137,17 +143,16 @@ impl Session {
 
 impl Browser {
     fn new(chromium: &'static Chromium) -> Self {
-        let mut whole = chromium.whole.lock().expect("the browser answers");
-        let mut call = |method, parameters| chromium.call(&mut whole, method, parameters);
-        let context = call("Target.createBrowserContext", json!({}))["browserContextId"].take();
-        let target = json!({ "url": "about:blank", "browserContextId": context });
-        let target = call("Target.createTarget", target)["targetId"].take();
-        let attach = json!({ "targetId": target, "flatten": true });
-        let attached = call("Target.attachToTarget", attach);
-        drop(whole);
-        let session =
-            Session::new(attached["sessionId"].as_str().expect("a name"), &chromium.readers);
-        let browser = Self { chromium, session: RefCell::new(session), context };
+        let free = chromium.free_windows.lock().expect("no window is lost").pop();
+        let window = free.unwrap_or_else(|| {
+            let blank = json!({ "url": "about:blank", "newWindow": true });
+            chromium.call_whole("Target.createTarget", blank)["targetId"].take()
+        });
+        let attach = json!({ "targetId": window, "flatten": true });
+        let attached = chromium.call_whole("Target.attachToTarget", attach);
+        let name = attached["sessionId"].as_str().expect("a name");
+        let session = RefCell::new(Session::new(name, &chromium.readers));
+        let browser = Self { chromium, session, window };
         for domain in ["Page", "Runtime", "Log", "Network"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
@@ -200,10 +205,11 @@ impl Browser {
     /// Opens `page` at `link`, and waits until it is ready.
     pub fn load(&self, page: &Path, link: &str) {
         // Another link alone would not load the page again.
-        self.call("Page.navigate", json!({ "url": "about:blank" }));
-        let url = format!("file://{}{link}", page.display());
+        let visit = self.session.borrow().next_id;
+        let url = format!("file://{}?{visit}{link}", page.display());
         self.call("Page.navigate", json!({ "url": url }));
-        self.wait_for("document.body?.dataset.ready === 'yes'");
+        let is_it = format!("location.search === '?{visit}'");
+        self.wait_for(&format!("{is_it} && document.body?.dataset.ready === 'yes'"));
     }
 
     /// Waits until `condition` holds.
@@ -276,9 +282,13 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
-        if let Ok(mut whole) = self.chromium.whole.lock() {
-            let close = json!({ "browserContextId": self.context });
-            self.chromium.call(&mut whole, "Target.disposeBrowserContext", close);
+        if !std::thread::panicking() {
+            self.call("Page.navigate", json!({ "url": "about:blank" }));
+            // All that was set for this session ends with it.
+            let session = json!({ "sessionId": self.session.borrow().name });
+            self.chromium.call_whole("Target.detachFromTarget", session);
+            let mut free = self.chromium.free_windows.lock().expect("no window is lost");
+            free.push(self.window.take());
         }
     }
 }
