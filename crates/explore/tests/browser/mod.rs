@@ -123,10 +123,10 @@ impl Chromium {
         drop(to);
         loop {
             let answer = session.from.recv_timeout(PATIENCE);
-            let answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
+            let mut answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
             if answer["id"] == id {
                 assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-                return answer["result"].clone();
+                return answer["result"].take();
             }
             session.events.push(answer);
         }
@@ -171,9 +171,9 @@ impl Browser {
     pub fn run(&self, expression: &str) -> Value {
         let parameters =
             json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
-        let result = self.call("Runtime.evaluate", parameters);
+        let mut result = self.call("Runtime.evaluate", parameters);
         assert!(result["exceptionDetails"].is_null(), "{expression}: {result}");
-        result["result"]["value"].clone()
+        result["result"]["value"].take()
     }
 
     /// [`Self::run`], where the value is text.
