@@ -2,7 +2,6 @@
 //! linked once, and one browser serves all.
 
 mod browser;
-mod misreading_pictures;
 mod overlays;
 mod page;
 mod panel;

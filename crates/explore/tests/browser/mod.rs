@@ -72,12 +72,12 @@ pub fn launch(with_webgl: bool) -> Option<Browser> {
 impl Chromium {
     fn start() -> Self {
         // The protocol's pipes are the descriptors 3 and 4. The shell removes what Chromium leaves.
-        let script = "profile=$(mktemp -d); \"$@\" \"--user-data-dir=$profile\" about:blank \
+        let script = "profile=$(mktemp -d); \"$@\" \"--user-data-dir=$profile\" \
                       3<&0 4>&1 </dev/null >/dev/null 2>&1; rm -rf \"$profile\"";
         let mut child = Command::new("sh")
             .args(["-c", script, "sh", "chromium"])
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"])
-            .args(["--no-first-run", "--disable-background-networking"])
+            .args(["--no-startup-window", "--no-first-run", "--disable-background-networking"])
             .args(["--disable-component-update", "--disable-sync", "--remote-debugging-pipe"])
             .args(["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
             .stdin(Stdio::piped())
