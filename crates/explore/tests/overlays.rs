@@ -7,7 +7,7 @@ use crate::support::{Traced, float, write_page};
 use compare::explain::explain;
 use compare::numbers::thousands;
 use explore::Exploration;
-use explore::comparison::{ListComparison, Other};
+use explore::comparison::Other;
 use explore::misreading;
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
@@ -51,13 +51,8 @@ fn every_misreading_opens_where_it_differs() {
             misreading::trace(name, &reference.run).expect("it is in the table");
         let section = misreading.section;
         let title = section.title();
-        let list = PhotonList { records: records.clone(), ..reference.list() };
-        let comparison = ListComparison::new(
-            Other::Misreading(misreading),
-            reference.list(),
-            list,
-            &reference.run,
-        );
+        let list = PhotonList::of(records.clone());
+        let comparison = reference.beside(Other::Misreading(misreading), list);
         let page = write_page(name, &reference.exploration(Some(&comparison)).page());
         browser.load(&page, "");
         let text = |id: &str| browser.text_of(&format!("#{id}"));
@@ -121,8 +116,7 @@ fn a_submission_shows_where_it_parts() {
     extra.position.z += 0.5;
     (extra.photon, extra.bounce, extra.surface) = (u32::MAX, u16::MAX, u16::MAX);
     list.records.insert(900, extra);
-    let other = submission("mine.csv");
-    let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
+    let comparison = reference.beside(submission("mine.csv"), list);
     let page = write_page("positions", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
     let all = reference.records.len() as u64;
@@ -175,8 +169,7 @@ fn a_submission_shows_where_it_parts() {
     browser.size(1280, 800);
     browser.has_been_quiet();
 
-    let other = submission("same.csv");
-    let same = ListComparison::new(other, reference.list(), reference.list(), &reference.run);
+    let same = reference.beside(submission("same.csv"), reference.list());
     let page = write_page("same", &reference.exploration(Some(&same)).page());
     browser.open(&page, "");
     assert_eq!(browser.text_of("#verdict"), "same.csv: identical");
@@ -207,8 +200,7 @@ fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
                 (record.photon, record.bounce, record.surface) = (u32::MAX, u16::MAX, u16::MAX);
             });
         }
-        let mine = submission("mine.csv");
-        let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
+        let comparison = reference.beside(submission("mine.csv"), list);
         let page = write_page("seed", &reference.exploration(Some(&comparison)).page());
         browser.open(&page, "");
         let text = |id: &str| browser.text_of(&format!("#{id}"));
@@ -247,8 +239,7 @@ fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
 fn without_webgl_it_is_told_whose_picture_is_shown() {
     let Some(browser) = launch(false) else { return };
     let reference = reference("");
-    let same =
-        ListComparison::new(submission("a"), reference.list(), reference.list(), &reference.run);
+    let same = reference.beside(submission("a"), reference.list());
     browser.open(&write_page("flat", &reference.exploration(Some(&same)).page()), "");
     let told = browser.text_of("#trouble");
     assert!(told.contains("the reference's picture"), "{told}");
@@ -264,8 +255,7 @@ fn hostile_names_stay_names() {
     surfaces[0].name = name.to_owned();
     let mut list = reference.list();
     list.records[10].position.x += 0.2;
-    let other = submission(name);
-    let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
+    let comparison = reference.beside(submission(name), list);
     let exploration = reference.exploration(Some(&comparison));
     let page = Exploration { table: (&surfaces, &total), ..exploration }.page();
     let page = write_page("hostile", &page);
@@ -291,13 +281,13 @@ fn a_submission_that_shows_a_misreading_is_told_so() {
     {
         let reference = reference(name);
         let (_, records) = misreading::trace(name, &reference.run).expect("it is in the table");
-        let mut list = PhotonList { records, ..reference.list() };
+        let mut list = PhotonList::of(records);
         list.columns.photon = tells_photons;
         let misreading = misreading::recognize(&list, &reference.run).expect(name);
         assert_eq!(misreading.id, name);
         let expected = format!(">mine.csv: {}</h2>", misreading.section.title());
         let mine = Other::Submission { name: "mine.csv".into(), misreading: Some(misreading) };
-        let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
+        let comparison = reference.beside(mine, list);
         let page = reference.exploration(Some(&comparison)).page();
         assert!(page.contains(&expected), "{name}: {expected}");
         assert!(page.contains(&format!("This is the misreading {name}.")));

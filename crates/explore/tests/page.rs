@@ -35,10 +35,7 @@ fn handouts_camera_shows_dots_where_the_picture_has_them() {
     let Some(browser) = launch(true) else { return };
     browser.open(&handout().1, "");
     browser.run("document.getElementById('view').style.cssText = 'width: 640px; height: 480px'");
-    browser.run(
-        "const colors = document.getElementById('colors'); colors.value = 'red'; \
-         colors.dispatchEvent(new Event('input', { bubbles: true }))",
-    );
+    browser.set("#colors", "red");
     browser.click_on("#home");
     // The path and its labels would hide dots.
     browser.run("document.getElementById('over').style.display = 'none'");
@@ -92,12 +89,8 @@ fn clicking_a_dot_opens_its_photon() {
          target: page.run.place(stored), distance: 0.3, yaw: 1.2, pitch: 0 });",
     );
     browser.settle();
-    let place = browser.run(
-        "(() => { const [x, y] = page.view.project(page.view.camera.target); const r = \
-         page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; })()",
-    );
     let before = Instant::now();
-    browser.click(float(&place[0]), float(&place[1]));
+    browser.click_at("page.view.camera.target", 1);
     browser.wait_for("location.hash === '#photon=73&bounce=1&step=stored'");
     eprintln!("a click to its story, with the protocol: {:?}", before.elapsed());
     assert_eq!(browser.text("document.getElementById('photon').value"), "73");
@@ -131,10 +124,7 @@ fn a_link_restores_its_step() {
     // Nothing but the number of a photon names one.
     for typed in ["-1", "73.5", ""] {
         browser.run("document.getElementById('no-story').textContent = ''");
-        browser.run(&format!(
-            "{{ const field = document.getElementById('photon'); field.value = '{typed}'; \
-             field.dispatchEvent(new Event('change')); }}"
-        ));
+        browser.set("#photon", typed);
         assert!(browser.text_of("#no-story").contains("a whole number"), "{typed}");
     }
     // So it is when the page opens on such a link, beside the story of the first photon.
@@ -164,12 +154,7 @@ fn the_mouse_turns_zooms_and_centers() {
          target: page.view.camera.target.map((x) => x + 0.01) }})"
     ));
     browser.settle();
-    let place = browser.run(&format!(
-        "(() => {{ const [x, y] = page.view.project({dot}); const r = \
-         page.view.canvas.getBoundingClientRect(); return [r.x + x, r.y + y]; }})()"
-    ));
-    let (x, y) = (float(&place[0]), float(&place[1]));
-    browser.double_click(x, y);
+    browser.click_at(dot, 2);
     browser.wait_for(&format!(
         "Math.hypot(...page.view.camera.target.map((x, i) => x - {dot}[i])) < 1e-6"
     ));
@@ -199,11 +184,8 @@ fn table_and_filters_show_what_they_say() {
     let others = total.stored - total.by_bounce[0].stored;
     assert_eq!(shown(), format!("{} photons shown.", thousands(others)));
     browser.click_on("#table thead input");
-    browser.run(
-        "for (const [id, value] of [['from', 73], ['to', 73]]) { const field = \
-         document.getElementById(id); field.value = value; field.dispatchEvent(new \
-         Event('input', { bubbles: true })); }",
-    );
+    browser.set("#from", "73");
+    browser.set("#to", "73");
     assert_eq!(shown(), "1 photon shown.");
     browser.has_been_quiet();
 }

@@ -3,21 +3,17 @@
 
 use std::path::{Path, PathBuf};
 
-use explore::comparison::{ListComparison, Other};
+use explore::comparison::Other;
 use explore::misreading::{FEW_BOUNCES, names, needs_few_bounces, trace};
-use fast::lanes::picture::take_picture;
-use fast::lanes::width::Width;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{Rgb, RgbImage};
 use photon_list::reader::PhotonList;
 use photon_mapping::assignment8::{self, HEIGHT, WIDTH};
-use photon_mapping::photon_list::PhotonRecord;
-use photon_mapping::rendering::photon_map::PhotonMap;
 use serde_json::json;
 use variants::run::Run;
 
 use crate::browser::launch;
-use crate::support::{handout, write_page};
+use crate::support::{handout, picture, write_page};
 
 const EMITTED: u64 = 100_000;
 /// Each pixel shows so many pixels of the handout's picture, to every side.
@@ -34,13 +30,6 @@ fn is_update() -> bool {
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(name)
-}
-
-fn picture(records: &[PhotonRecord]) -> RgbImage {
-    let mut renderer = assignment8::create_renderer(assignment8::create_scene());
-    renderer.diffuse_map = PhotonMap::new(records.iter().map(|record| record.position));
-    let camera = assignment8::create_camera(WIDTH, HEIGHT);
-    take_picture(&renderer, Width::widest(), &camera, WIDTH, HEIGHT, || ()).picture
 }
 
 /// `picture` at a third of its size: dots in red, all else in few shades, so that files are small.
@@ -72,14 +61,14 @@ fn the_documentation_shows_each_misreading() {
         run.renderer.max_photon_bounces = max_bounces.unwrap_or(run.renderer.max_photon_bounces);
         run
     };
-    let plain = |run: &Run| small(&picture(&run.records(0..EMITTED)));
+    let plain = |run: &Run| small(&picture(run, &run.records(0..EMITTED)));
     let reference = plain(&run(None));
     for name in names() {
         let few = needs_few_bounces(name).then_some(FEW_BOUNCES);
         let run = run(few);
         let (_, records) = trace(name, &run).expect("it is in the table");
         let beside = few.map_or_else(|| reference.clone(), |_| plain(&run));
-        let picture = pair(&small(&picture(&records)), &beside);
+        let picture = pair(&small(&picture(&run, &records)), &beside);
         let file = file(&format!("misreadings/{name}.png"));
         if is_update() {
             let mut png = Vec::new();
@@ -112,9 +101,8 @@ fn the_documentation_shows_the_page() {
         take("explore.png", page, "#photon=73&bounce=0&step=roulette");
         let (misreading, records) =
             trace("transposed-frame", &run.run).expect("it is in the table");
-        let list = PhotonList { records, ..run.list() };
-        let other = Other::Misreading(misreading);
-        let comparison = ListComparison::new(other, run.list(), list, &run.run);
+        let list = PhotonList::of(records);
+        let comparison = run.beside(Other::Misreading(misreading), list);
         let page = write_page("picture", &run.exploration(Some(&comparison)).page());
         take("explore-comparison.png", &page, "");
     }

@@ -205,10 +205,7 @@ fn shapes_tell_what_colors_tell() {
     }
     // No two entries of a legend have one shape.
     for mode in ["bounce", "surface"] {
-        browser.run(&format!(
-            "(() => {{ const colors = document.getElementById('colors'); colors.value = '{mode}'; \
-             colors.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
-        ));
+        browser.set("#colors", mode);
         let shapes = "new Set([...document.querySelectorAll('#legend .swatch')].map((dot) => \
                       dot.textContent)).size";
         assert_eq!(browser.run(shapes), 4, "{mode}");
