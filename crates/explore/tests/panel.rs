@@ -2,7 +2,7 @@
 
 use crate::browser::{Browser, launch};
 use crate::support::{Traced, handout, write_page};
-use compare::explain::{Ending, Hit, Story, explain};
+use compare::explain::{Ending, Hit, Story, explain, vector};
 use photon_mapping::assignment8;
 use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use serde_json::{Value, json};
@@ -23,10 +23,6 @@ const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
 /// Whether `step` lights the line `code`.
 fn is_lit(step: &Value, code: &str) -> bool {
     step["lit"].as_array().expect("a list").iter().any(|line| line == code)
-}
-
-fn vector(xyz: &[f32; 3]) -> String {
-    compare::explain::vector(xyz)
 }
 
 /// Checks all that the panel shows at the hit `hit`, whose steps are `steps`.
