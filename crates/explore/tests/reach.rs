@@ -4,6 +4,10 @@
 use crate::browser::launch;
 use crate::support::{float, open_short, short};
 
+const PICTURE_IS_SHOWN: &str = "(() => { const picture = document.getElementById('picture'); \
+                                return picture.checkVisibility() && picture.naturalWidth === 640; \
+                                })()";
+
 #[test]
 fn the_keyboard_alone_is_enough() {
     let Some(browser) = open_short("#photon=73&bounce=0&step=emission") else { return };
@@ -132,7 +136,7 @@ fn without_webgl_the_rest_works() {
     let Some(browser) = launch(false) else { return };
     browser.open(&short().1, "#photon=73&bounce=0&step=roulette");
     assert!(browser.text_of("#trouble").contains("WebGL"));
-    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    browser.wait_for(PICTURE_IS_SHOWN);
     let is_seen = "document.getElementById('view').checkVisibility({ visibilityProperty: true })";
     assert_eq!(browser.run(is_seen), false);
     browser.press("ArrowRight");
@@ -176,7 +180,7 @@ fn it_fills_a_projector() {
 fn a_lost_graphics_context_leaves_picture_table_and_story() {
     let Some(browser) = open_short("#photon=73&bounce=0&step=roulette") else { return };
     browser.run("page.view.gl.getExtension('WEBGL_lose_context').loseContext()");
-    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    browser.wait_for(PICTURE_IS_SHOWN);
     browser.press("ArrowRight");
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
     browser.click_on("#table td button");
