@@ -17,7 +17,7 @@ use photon_mapping::rendering::photon_map::PhotonMap;
 use serde_json::Value;
 use variants::run::Run;
 
-use crate::browser::{Browser, launch};
+use crate::browser::{Borrowed, launch};
 
 /// A run of the handout with its list, table and picture.
 pub struct Traced {
@@ -109,7 +109,7 @@ fn traced_page(name: &str, photons: u64) -> (Traced, PathBuf) {
 }
 
 /// The page of the short run at `link`, in a browser if there is one.
-pub fn open_short(link: &str) -> Option<Browser> {
+pub fn open_short(link: &str) -> Option<Borrowed> {
     let browser = launch(true)?;
     browser.open(&short().1, link);
     Some(browser)

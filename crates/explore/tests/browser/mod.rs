@@ -4,13 +4,13 @@
 //! for each of the protocol's messages. These tests need nine of them, and `serde_json` is here.
 mod input;
 
-use std::cell::RefCell;
-use std::collections::HashMap;
+use std::cell::{Cell, RefCell};
 use std::io::{BufRead, BufReader, Cursor, Write};
+use std::ops::Deref;
 use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::Mutex;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use image::RgbImage;
@@ -19,58 +19,66 @@ use serde_json::{Value, json};
 /// No answer takes longer, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The Chromium of all tests. It ends with them, when its pipes close.
-struct Chromium {
-    to: Mutex<ChildStdin>,
-    /// Who reads the messages of each session, by its name. That of the whole browser has none.
-    readers: Arc<Mutex<HashMap<String, Sender<Value>>>>,
-    whole: Mutex<Session>,
-    /// Windows that no test uses. To open one, and its first page, takes a second.
-    free_windows: Mutex<Vec<Value>>,
-}
+/// Browsers that no test uses. To start one and its first page takes two seconds of a processor.
+static FREE: Mutex<Vec<Browser>> = Mutex::new(Vec::new());
 
-/// One side of a conversation.
-struct Session {
-    name: String,
-    from: Receiver<Value>,
-    next_id: u64,
-    /// What was told without being asked for.
-    events: Vec<Value>,
-}
-
-/// A page in a window of its own.
+/// A browser with one window. It ends when its pipes close.
 pub struct Browser {
-    chromium: &'static Chromium,
-    session: RefCell<Session>,
+    to: RefCell<ChildStdin>,
+    from: Receiver<Value>,
+    next_id: Cell<u64>,
     window: Value,
+    session: RefCell<String>,
+    /// What the page logged, and what it asked the network for.
+    events: RefCell<Vec<Value>>,
 }
 
-/// A window, with WebGL in software or with none. Nothing, with a message, where there is no
+/// A browser that is free again when this is dropped.
+pub struct Borrowed(Option<Browser>);
+
+/// A browser, with WebGL in software or with none. Nothing, with a message, where there is no
 /// Chromium; where `PHOTON_MAPPING_CHROMIUM` is set there must be one.
-pub fn launch(with_webgl: bool) -> Option<Browser> {
-    static CHROMIUM: OnceLock<Option<Chromium>> = OnceLock::new();
-    let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
-    let started = CHROMIUM.get_or_init(|| {
-        let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
-        match found {
-            Ok(_) => Some(Chromium::start()),
-            Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
-            Err(error) => {
-                eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
-                None
-            }
-        }
-    });
-    let browser = started.as_ref().map(Browser::new)?;
+pub fn launch(with_webgl: bool) -> Option<Borrowed> {
+    let free = FREE.lock().expect("no test panics here").pop();
+    let browser = free.or_else(Browser::start)?;
+    browser.attach();
     if !with_webgl {
         let without = "HTMLCanvasElement.prototype.getContext = () => null";
         browser.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": without }));
     }
-    Some(browser)
+    Some(Borrowed(Some(browser)))
 }
 
-impl Chromium {
-    fn start() -> Self {
+impl Deref for Borrowed {
+    type Target = Browser;
+
+    fn deref(&self) -> &Browser {
+        self.0.as_ref().expect("it is there until this is dropped")
+    }
+}
+
+impl Drop for Borrowed {
+    fn drop(&mut self) {
+        let browser = self.0.take().filter(|_| !std::thread::panicking());
+        if let Some(browser) = browser {
+            browser.detach();
+            FREE.lock().expect("no test panics here").push(browser);
+        }
+    }
+}
+
+impl Browser {
+    fn start() -> Option<Self> {
+        let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
+        let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
+        match found {
+            Ok(_) => {}
+            Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
+            Err(error) => {
+                eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
+                return None;
+            }
+        }
         // The protocol's pipes are the descriptors 3 and 4. The shell removes what Chromium leaves.
         let script = "profile=$(mktemp -d); \"$@\" \"--user-data-dir=$profile\" \
                       3<&0 4>&1 </dev/null >/dev/null 2>&1; rm -rf \"$profile\"";
@@ -84,87 +92,65 @@ impl Chromium {
             .stdout(Stdio::piped())
             .spawn()
             .expect("a shell can be run");
-        let to = Mutex::new(child.stdin.take().expect("piped"));
+        let to = RefCell::new(child.stdin.take().expect("piped"));
         let mut messages = BufReader::new(child.stdout.take().expect("piped"));
-        let readers: Arc<Mutex<HashMap<String, Sender<Value>>>> = Arc::default();
-        let whole = Mutex::new(Session::new("", &readers));
-        let told = Arc::clone(&readers);
+        let (sender, from) = channel();
         std::thread::spawn(move || {
             let mut message = Vec::new();
             while messages.read_until(0, &mut message).is_ok_and(|length| length > 0) {
                 message.pop();
-                let value: Value = serde_json::from_slice(&message).expect("messages are JSON");
+                let value = serde_json::from_slice(&message).expect("messages are JSON");
                 message.clear();
-                let name = value["sessionId"].as_str().unwrap_or_default();
-                if let Some(reader) = told.lock().expect("no reader panics").get(name) {
-                    // A window that was closed reads no more.
-                    let _ = reader.send(value);
+                if sender.send(value).is_err() {
+                    break;
                 }
             }
         });
-        Self { to, readers, whole, free_windows: Mutex::default() }
+        let (next_id, events) = (Cell::new(1), RefCell::default());
+        let (window, session) = (Value::Null, RefCell::default());
+        let mut browser = Self { to, from, next_id, window, session, events };
+        let blank = json!({ "url": "about:blank" });
+        browser.window = browser.call("Target.createTarget", blank)["targetId"].take();
+        Some(browser)
     }
 
-    /// Calls a method of the protocol for the whole browser, and gives its result.
-    fn call_whole(&self, method: &str, parameters: Value) -> Value {
-        self.call(&mut self.whole.lock().expect("the browser answers"), method, parameters)
-    }
-
-    /// Calls a method of the protocol in `session`, and gives its result.
-    fn call(&self, session: &mut Session, method: &str, parameters: Value) -> Value {
-        let id = session.next_id;
-        session.next_id += 1;
-        let mut message = json!({ "id": id, "method": method, "params": parameters });
-        if !session.name.is_empty() {
-            message["sessionId"] = json!(session.name);
+    /// Begins a session with the window.
+    fn attach(&self) {
+        let attach = json!({ "targetId": self.window, "flatten": true });
+        let attached = self.call("Target.attachToTarget", attach);
+        attached["sessionId"].as_str().expect("a name").clone_into(&mut self.session.borrow_mut());
+        for domain in ["Page", "Runtime", "Log", "Network"] {
+            self.call(&format!("{domain}.enable"), json!({}));
         }
-        let mut to = self.to.lock().expect("no writer panics");
+        self.size(1280, 800);
+    }
+
+    /// Ends the session, and with it all that it set.
+    fn detach(&self) {
+        self.call("Page.navigate", json!({ "url": "about:blank" }));
+        let session = self.session.take();
+        self.call("Target.detachFromTarget", json!({ "sessionId": session }));
+        self.events.take();
+    }
+
+    /// Calls a method of the protocol and gives its result.
+    pub fn call(&self, method: &str, parameters: Value) -> Value {
+        let id = self.next_id.replace(self.next_id.get() + 1);
+        let mut message = json!({ "id": id, "method": method, "params": parameters });
+        if !self.session.borrow().is_empty() {
+            message["sessionId"] = json!(self.session);
+        }
+        let mut to = self.to.borrow_mut();
         write!(to, "{message}\0").and_then(|()| to.flush()).expect("the browser is running");
-        drop(to);
         loop {
-            let answer = session.from.recv_timeout(PATIENCE);
+            let answer = self.from.recv_timeout(PATIENCE);
             let mut answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
             if answer["id"] == id {
                 assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
                 return answer["result"].take();
             }
-            session.events.push(answer);
+            self.events.borrow_mut().push(answer);
         }
-    }
-}
-
-impl Session {
-    fn new(name: &str, readers: &Mutex<HashMap<String, Sender<Value>>>) -> Self {
-        let (reader, from) = channel();
-        readers.lock().expect("no reader panics").insert(name.to_owned(), reader);
-        Self { name: name.to_owned(), from, next_id: 1, events: Vec::new() }
-    }
-}
-
-impl Browser {
-    fn new(chromium: &'static Chromium) -> Self {
-        let free = chromium.free_windows.lock().expect("no window is lost").pop();
-        let window = free.unwrap_or_else(|| {
-            let blank = json!({ "url": "about:blank", "newWindow": true });
-            chromium.call_whole("Target.createTarget", blank)["targetId"].take()
-        });
-        let attach = json!({ "targetId": window, "flatten": true });
-        let attached = chromium.call_whole("Target.attachToTarget", attach);
-        let name = attached["sessionId"].as_str().expect("a name");
-        let session = RefCell::new(Session::new(name, &chromium.readers));
-        let browser = Self { chromium, session, window };
-        for domain in ["Page", "Runtime", "Log", "Network"] {
-            browser.call(&format!("{domain}.enable"), json!({}));
-        }
-        // As if it were the only window.
-        browser.call("Emulation.setFocusEmulationEnabled", json!({ "enabled": true }));
-        browser.size(1280, 800);
-        browser
-    }
-
-    /// Calls a method of the protocol and gives its result.
-    pub fn call(&self, method: &str, parameters: Value) -> Value {
-        self.chromium.call(&mut self.session.borrow_mut(), method, parameters)
     }
 
     /// The value of the JavaScript `expression`, awaited.
@@ -205,7 +191,7 @@ impl Browser {
     /// Opens `page` at `link`, and waits until it is ready.
     pub fn load(&self, page: &Path, link: &str) {
         // Another link alone would not load the page again.
-        let visit = self.session.borrow().next_id;
+        let visit = self.next_id.get();
         let url = format!("file://{}?{visit}{link}", page.display());
         self.call("Page.navigate", json!({ "url": url }));
         let is_it = format!("location.search === '?{visit}'");
@@ -259,7 +245,7 @@ impl Browser {
     /// Checks that the page has caused no error, and asked for nothing but itself.
     pub fn has_been_quiet(&self) {
         self.run("0");
-        for event in &self.session.borrow().events {
+        for event in self.events.borrow().iter() {
             let (method, parameters) = (event["method"].as_str(), &event["params"]);
             match method {
                 Some("Runtime.exceptionThrown") => panic!("{parameters}"),
@@ -276,19 +262,6 @@ impl Browser {
                 }
                 _ => {}
             }
-        }
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        if !std::thread::panicking() {
-            self.call("Page.navigate", json!({ "url": "about:blank" }));
-            // All that was set for this session ends with it.
-            let session = json!({ "sessionId": self.session.borrow().name });
-            self.chromium.call_whole("Target.detachFromTarget", session);
-            let mut free = self.chromium.free_windows.lock().expect("no window is lost");
-            free.push(self.window.take());
         }
     }
 }
