@@ -9,7 +9,6 @@ use glam::Vec3;
 use model::facets::facets;
 use photon_list::reader::PhotonList;
 use photon_mapping::photon_list::PhotonRecord;
-use photon_mapping::rendering::photon_mapping_renderer::PhotonMappingRenderer;
 use rayon::prelude::*;
 use variants::hypotheses::{self, Hypothesis};
 use variants::misreadings::by_marks;
@@ -104,10 +103,13 @@ fn records(hypothesis: &Hypothesis, run: &Run, photons: u64) -> Vec<PhotonRecord
             all.filter(|record| u64::from(record.photon) < photons).collect()
         }
         _ => {
-            let PhotonMappingRenderer { seed, max_photon_bounces, .. } = run.renderer;
-            let emitted = run.renderer.emitted();
-            let variation = hypothesis.variation.clone();
-            let simulation = Simulation::new(variation, seed, emitted, max_photon_bounces);
+            let renderer = &run.renderer;
+            let simulation = Simulation::new(
+                hypothesis.variation,
+                renderer.seed,
+                renderer.emitted(),
+                renderer.max_photon_bounces,
+            );
             let mut records = simulation.trace(0..photons);
             // The simulation has a mesh object for every face.
             let surfaces: Vec<_> =

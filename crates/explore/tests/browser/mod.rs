@@ -105,6 +105,7 @@ impl Browser {
                     break;
                 }
             }
+            child.wait()
         });
         let (next_id, events) = (Cell::new(1), RefCell::default());
         let (window, session) = (Value::Null, RefCell::default());
