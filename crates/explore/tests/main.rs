@@ -1,5 +1,5 @@
-//! The page as a student uses it, and the pictures of the documentation. One program of tests: it is
-//! linked once, and its browsers serve one test after another.
+//! The page as a student uses it, and the pictures of the documentation. One program of tests: it
+//! is linked once, and its browsers serve one test after another.
 
 mod browser;
 mod overlays;
