@@ -1,5 +1,5 @@
-//! The pictures of the documentation. With `UPDATE_PICTURES=1` in the environment, these tests write
-//! them.
+//! The pictures of the documentation. With `UPDATE_PICTURES=1` in the environment, these tests
+//! write them.
 
 use std::path::{Path, PathBuf};
 
