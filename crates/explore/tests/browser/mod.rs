@@ -71,13 +71,10 @@ impl Browser {
     fn start() -> Option<Self> {
         let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
         let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
-        match found {
-            Ok(_) => {}
-            Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
-            Err(error) => {
-                eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
-                return None;
-            }
+        if let Err(error) = found {
+            assert!(!is_expected, "chromium cannot be run: {error}");
+            eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
+            return None;
         }
         // The protocol's pipes are the descriptors 3 and 4. The shell removes what Chromium leaves.
         let script = "profile=$(mktemp -d); \"$@\" \"--user-data-dir=$profile\" \
@@ -247,22 +244,18 @@ impl Browser {
     pub fn has_been_quiet(&self) {
         self.run("0");
         for event in self.events.borrow().iter() {
-            let (method, parameters) = (event["method"].as_str(), &event["params"]);
-            match method {
-                Some("Runtime.exceptionThrown") => panic!("{parameters}"),
-                Some("Runtime.consoleAPICalled") if parameters["type"] == "error" => {
-                    panic!("{parameters}")
-                }
-                Some("Log.entryAdded") if parameters["entry"]["level"] == "error" => {
-                    panic!("{parameters}")
-                }
+            let parameters = &event["params"];
+            let url = parameters["request"]["url"].as_str().unwrap_or_default();
+            let is_wrong = match event["method"].as_str() {
+                Some("Runtime.exceptionThrown") => true,
+                Some("Runtime.consoleAPICalled") => parameters["type"] == "error",
+                Some("Log.entryAdded") => parameters["entry"]["level"] == "error",
                 Some("Network.requestWillBeSent") => {
-                    let url = parameters["request"]["url"].as_str().expect("an address");
-                    let of_itself = ["file:", "data:", "about:"];
-                    assert!(of_itself.iter().any(|kind| url.starts_with(kind)), "{url}");
+                    !["file:", "data:"].iter().any(|kind| url.starts_with(kind))
                 }
-                _ => {}
-            }
+                _ => false,
+            };
+            assert!(!is_wrong, "{event}");
         }
     }
 }
