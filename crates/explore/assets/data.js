@@ -114,5 +114,5 @@ const lengthSquared = ([x, y, z]) => round(round(round(x * x) + round(y * y)) + 
 const FORMATS = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((maximumSignificantDigits) =>
   new Intl.NumberFormat("en-US", { maximumSignificantDigits, useGrouping: false }));
 /** An f32 with as few digits as bring back the same bits, as Rust prints it. */
-const digits = (x) => FORMATS.map((format) => format.format(x)).find((text) => round(text) === x);
+const digits = (x) => FORMATS.find((_, more) => round(x.toPrecision(1 + more)) === x)?.format(x);
 const thousands = (count) => count.toLocaleString("en-US");

@@ -39,9 +39,9 @@ class View {
    * A look is a shape, then 1 for plain, 2 for lit or 3 for large. */
   setLayer(name, mode, ...columns) {
     const { gl } = this;
-    if (!gl) return;
-    const layer = (this.layers[name] ??= { mode, vao: gl.createVertexArray(), buffers: [] });
+    const layer = (this.layers[name] ??= { mode, vao: gl?.createVertexArray(), buffers: [] });
     Object.assign(layer, { columns, count: columns[0].length / 3 });
+    if (!gl) return;
     gl.bindVertexArray(layer.vao);
     for (const [index, array] of columns.entries()) {
       const [size, type] = ATTRIBUTES[index];

@@ -32,14 +32,3 @@ pub fn fill(template: &str, parts: &[(&str, String)]) -> String {
     }
     page + rest
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_put_in_is_not_looked_at_again() {
-        let parts = [("a", "{b}".to_owned()), ("b", "2".to_owned())];
-        assert_eq!(fill("<{a}|{b}>", &parts), "<{b}|2>");
-    }
-}

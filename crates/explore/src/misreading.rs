@@ -69,28 +69,30 @@ pub fn needs_few_bounces(name: &str) -> bool {
 /// under it; nothing if no misreading has this name. Its photons draw the numbers of the run.
 pub fn trace(name: &str, run: &Run) -> Option<(ShownMisreading, Vec<PhotonRecord>)> {
     let hypothesis = table().into_iter().find(|hypothesis| hypothesis.id == name)?;
-    let advised = hypothesis.misreading?;
-    let misreading = ShownMisreading {
-        id: hypothesis.id,
-        title: hypothesis.title,
-        section: advised.section,
-        advice: advised.advice,
-    };
-    let emitted = run.renderer.emitted();
-    let all = 0..emitted;
-    let by_marks = match name {
+    let records = records(&hypothesis, run, run.renderer.emitted());
+    Some((shown(hypothesis)?, records))
+}
+
+fn shown(Hypothesis { id, title, misreading, .. }: Hypothesis) -> Option<ShownMisreading> {
+    let advised = misreading?;
+    Some(ShownMisreading { id, title, section: advised.section, advice: advised.advice })
+}
+
+/// What the first `photons` photons of `run` store under `hypothesis`.
+fn records(hypothesis: &Hypothesis, run: &Run, photons: u64) -> Vec<PhotonRecord> {
+    match hypothesis.id {
         // How often a photon hits the surface it leaves depends on rounding, so it is traced as it
         // is.
         "no-offset" => {
             let reading = Reading { offset: Offset::None, ..run.reading };
-            Some((Run { reading, ..run.clone() }).records(all.clone()))
+            (Run { reading, ..run.clone() }).records(0..photons)
         }
         "stored-twice" => {
-            Some(run.records(all.clone()).into_iter().flat_map(|record| [record; 2]).collect())
+            run.records(0..photons).into_iter().flat_map(|record| [record; 2]).collect()
         }
         "repeated-paths" => {
-            let of_thread = emitted.div_ceil(THREADS);
-            let first = run.records(0..of_thread);
+            let of_thread = run.renderer.emitted().div_ceil(THREADS);
+            let first = run.records(0..of_thread.min(photons));
             let again = |thread: u64| {
                 let number = (thread * of_thread) as u32;
                 first
@@ -98,31 +100,29 @@ pub fn trace(name: &str, run: &Run) -> Option<(ShownMisreading, Vec<PhotonRecord
                     .map(move |record| PhotonRecord { photon: record.photon + number, ..*record })
             };
             let all = (0..THREADS).flat_map(again);
-            Some(all.filter(|record| u64::from(record.photon) < emitted).collect())
+            all.filter(|record| u64::from(record.photon) < photons).collect()
         }
-        _ => None,
-    };
-    if let Some(records) = by_marks {
-        return Some((misreading, records));
-    }
-    let renderer = &run.renderer;
-    let simulation = Simulation::new(
-        hypothesis.variation,
-        renderer.seed,
-        renderer.emitted(),
-        renderer.max_photon_bounces,
-    );
-    let mut records = simulation.trace(all);
-    // The simulation has a mesh object for every face.
-    let surfaces: Vec<_> =
-        facets(run.scene()).map(|facet| facet[0].parent_mesh_object as u16).collect();
-    for record in &mut records {
-        // A photon that is nowhere is on no face.
-        if let Some(surface) = surfaces.get(usize::from(record.surface)) {
-            record.surface = *surface;
+        _ => {
+            let renderer = &run.renderer;
+            let simulation = Simulation::new(
+                hypothesis.variation,
+                renderer.seed,
+                renderer.emitted(),
+                renderer.max_photon_bounces,
+            );
+            let mut records = simulation.trace(0..photons);
+            // The simulation has a mesh object for every face.
+            let surfaces: Vec<_> =
+                facets(run.scene()).map(|facet| facet[0].parent_mesh_object as u16).collect();
+            for record in &mut records {
+                // A photon that is nowhere is on no face.
+                if let Some(surface) = surfaces.get(usize::from(record.surface)) {
+                    record.surface = *surface;
+                }
+            }
+            records
         }
     }
-    Some((misreading, records))
 }
 
 /// The misreading under which `run`, a run of the handout's scene, stores what `list` has of its
@@ -131,13 +131,17 @@ pub fn recognize(list: &PhotonList, run: &Run) -> Option<ShownMisreading> {
     let mut few = run.clone();
     few.renderer.photon_count = few.renderer.photon_count.min(PHOTONS_TRIED);
     let emitted = few.renderer.emitted();
-    let wrong =
-        |traced: &[PhotonRecord]| wrong_records(list, traced, emitted, TOLERANCE * run.size());
-    let without_any = wrong(&few.records(0..emitted));
+    let wrong = |traced: &[PhotonRecord], photons: u64| {
+        wrong_records(list, traced, photons, TOLERANCE * run.size())
+    };
+    let without_any = wrong(&few.records(0..emitted), emitted);
     let most = (without_any as f64 * LEFT_WRONG) as usize;
-    let tried = names().into_par_iter().filter_map(|name| {
-        let (misreading, records) = trace(name, &few)?;
-        Some((wrong(&records), misreading)).filter(|(left, _)| *left <= most)
+    let tried = table().into_par_iter().filter_map(|hypothesis| {
+        let left = |photons| wrong(&records(&hypothesis, &few, photons), photons);
+        // More photons are never less wrong, and most misreadings fail by the first few.
+        let is_worth = left(emitted / 8) <= most;
+        let left = is_worth.then(|| left(emitted)).filter(|left| *left <= most)?;
+        Some((left, shown(hypothesis)?))
     });
     let best = || tried.min_by_key(|(left, _)| *left).map(|(_, misreading)| misreading);
     (without_any >= FEWEST_WRONG).then(best).flatten()

@@ -245,28 +245,3 @@ fn direct_follows(story: &Story, run: &Run) -> bool {
         point.to_array().map(f32::to_bits) == hit.position.map(f32::to_bits)
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thinning_keeps_whole_paths_evenly() {
-        let record = |photon, bounce| PhotonRecord {
-            position: Vec3::ZERO,
-            intensity: Vec3::ZERO,
-            to_light: Vec3::ZERO,
-            photon,
-            bounce,
-            surface: 0,
-        };
-        let records: Vec<_> =
-            (0..1000).flat_map(|photon| [record(photon, 1), record(photon, 2)]).collect();
-        assert!(thin(&records, 2000).is_none());
-        let kept = thin(&records, 500).expect("there are more");
-        assert!((490..=510).contains(&kept.len()), "{}", kept.len());
-        assert!(kept.chunks_exact(2).all(|path| path[0].photon == path[1].photon));
-        let first_half = kept.iter().filter(|record| record.photon < 500).count();
-        assert!((240..=260).contains(&first_half), "{first_half}");
-    }
-}

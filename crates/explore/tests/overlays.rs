@@ -1,12 +1,13 @@
 //! Other lists laid over the run's: misreadings, submissions, and names that mean harm.
 
-mod browser;
-mod support;
+use std::sync::OnceLock;
 
-use browser::{Browser, launch};
+use crate::browser::{Browser, launch};
+use crate::support::{Traced, float, write_page};
 use compare::explain::explain;
 use compare::numbers::thousands;
-use explore::comparison::{ListComparison, Other};
+use explore::Exploration;
+use explore::comparison::Other;
 use explore::misreading;
 use oracle::table::ExpectedTable;
 use photon_list::reader::PhotonList;
@@ -14,20 +15,24 @@ use photon_list::record::Columns;
 use photon_mapping::assignment8;
 use photon_mapping::photon_list::PhotonRecord;
 use serde_json::{Value, json};
-use support::{Traced, float, write_page};
 use variants::run::Run;
 use variants::section::Section;
 
-const PHOTONS: u64 = 60_000;
+const PHOTONS: u64 = 20_000;
 const POSITIONS_ALONE: Columns =
     Columns { intensity: false, to_light: false, photon: false, bounce: false, surface: false };
 
-fn traced(misreading: &str) -> Traced {
-    let mut run = Run::handout(assignment8::SEED, PHOTONS);
-    if misreading::needs_few_bounces(misreading) {
-        run.renderer.max_photon_bounces = misreading::FEW_BOUNCES;
-    }
-    Traced::of(run, Some(&ExpectedTable::of_assignment8()))
+/// The run beside which `misreading` shows.
+fn reference(misreading: &str) -> &'static Traced {
+    static RUNS: [OnceLock<Traced>; 2] = [OnceLock::new(), OnceLock::new()];
+    let is_short = misreading::needs_few_bounces(misreading);
+    RUNS[usize::from(is_short)].get_or_init(|| {
+        let mut run = Run::handout(assignment8::SEED, PHOTONS);
+        if is_short {
+            run.renderer.max_photon_bounces = misreading::FEW_BOUNCES;
+        }
+        Traced::of(run, Some(&ExpectedTable::of_assignment8()))
+    })
 }
 
 fn submission(name: &str) -> Other {
@@ -36,22 +41,18 @@ fn submission(name: &str) -> Other {
 
 #[test]
 fn every_misreading_opens_where_it_differs() {
-    let Some(browser) = launch(true) else { return };
+    // No pixels are looked at, and without WebGL a page takes half the time.
+    let Some(browser) = launch(false) else { return };
     let names = misreading::names();
     assert_eq!(names.len(), variants::misreadings::names().len());
     for name in names {
-        let reference = traced(name);
+        let reference = reference(name);
         let (misreading, records) =
             misreading::trace(name, &reference.run).expect("it is in the table");
         let section = misreading.section;
         let title = section.title();
-        let list = PhotonList { records: records.clone(), ..reference.list() };
-        let comparison = ListComparison::new(
-            Other::Misreading(misreading),
-            reference.list(),
-            list,
-            &reference.run,
-        );
+        let list = PhotonList::of(records.clone());
+        let comparison = reference.beside(Other::Misreading(misreading), list);
         let page = write_page(name, &reference.exploration(Some(&comparison)).page());
         browser.load(&page, "");
         let text = |id: &str| browser.text_of(&format!("#{id}"));
@@ -79,6 +80,8 @@ fn every_misreading_opens_where_it_differs() {
         };
         assert_eq!(browser.run("page.steps[page.at].bounce"), expected, "{name}: photon {photon}");
         // The code is in sight under the verdict and both values, and so is the box between lines.
+        // Without WebGL, the page says so above them.
+        browser.run("document.getElementById('trouble').hidden = true");
         let [_, top, ..] = browser.edges("#code .lit");
         assert!(top < 780.0, "{name}: {top}");
         let lines = float(&browser.run("(page.view.layers.moved?.count ?? 0) / 2"));
@@ -103,7 +106,7 @@ fn every_misreading_opens_where_it_differs() {
 #[test]
 fn a_submission_shows_where_it_parts() {
     let Some(browser) = launch(true) else { return };
-    let reference = traced("");
+    let reference = reference("");
     // One photon moved, one missing, one extra, in a list that tells only positions.
     let mut list = reference.list();
     list.columns = POSITIONS_ALONE;
@@ -113,8 +116,7 @@ fn a_submission_shows_where_it_parts() {
     extra.position.z += 0.5;
     (extra.photon, extra.bounce, extra.surface) = (u32::MAX, u16::MAX, u16::MAX);
     list.records.insert(900, extra);
-    let other = submission("mine.csv");
-    let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
+    let comparison = reference.beside(submission("mine.csv"), list);
     let page = write_page("positions", &reference.exploration(Some(&comparison)).page());
     browser.open(&page, "");
     let all = reference.records.len() as u64;
@@ -167,8 +169,7 @@ fn a_submission_shows_where_it_parts() {
     browser.size(1280, 800);
     browser.has_been_quiet();
 
-    let other = submission("same.csv");
-    let same = ListComparison::new(other, reference.list(), reference.list(), &reference.run);
+    let same = reference.beside(submission("same.csv"), reference.list());
     let page = write_page("same", &reference.exploration(Some(&same)).page());
     browser.open(&page, "");
     assert_eq!(browser.text_of("#verdict"), "same.csv: identical");
@@ -188,8 +189,8 @@ fn counts_of_submission(browser: &Browser) -> Value {
 
 #[test]
 fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
-    let Some(browser) = launch(true) else { return };
-    let reference = traced("");
+    let Some(browser) = launch(false) else { return };
+    let reference = reference("");
     let other = Traced::of(Run::handout(2, PHOTONS), None);
     for tells in [true, false] {
         let mut list = other.list();
@@ -199,8 +200,7 @@ fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
                 (record.photon, record.bounce, record.surface) = (u32::MAX, u16::MAX, u16::MAX);
             });
         }
-        let mine = submission("mine.csv");
-        let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
+        let comparison = reference.beside(submission("mine.csv"), list);
         let page = write_page("seed", &reference.exploration(Some(&comparison)).page());
         browser.open(&page, "");
         let text = |id: &str| browser.text_of(&format!("#{id}"));
@@ -238,9 +238,8 @@ fn a_fair_list_of_another_seed_is_said_to_have_other_numbers() {
 #[test]
 fn without_webgl_it_is_told_whose_picture_is_shown() {
     let Some(browser) = launch(false) else { return };
-    let reference = traced("");
-    let same =
-        ListComparison::new(submission("a"), reference.list(), reference.list(), &reference.run);
+    let reference = reference("");
+    let same = reference.beside(submission("a"), reference.list());
     browser.open(&write_page("flat", &reference.exploration(Some(&same)).page()), "");
     let told = browser.text_of("#trouble");
     assert!(told.contains("the reference's picture"), "{told}");
@@ -249,15 +248,17 @@ fn without_webgl_it_is_told_whose_picture_is_shown() {
 #[test]
 fn hostile_names_stay_names() {
     let Some(browser) = launch(true) else { return };
-    let mut reference = traced("");
+    let reference = reference("");
     let name = "</script><script>window.hurt = 1</script></title><script>hurt = 1</script><img \
                 src=x onerror='hurt=1'>{data}{script}\u{2028}.csv";
-    reference.table.0[0].name = name.to_owned();
+    let (mut surfaces, total) = reference.table.clone();
+    surfaces[0].name = name.to_owned();
     let mut list = reference.list();
     list.records[10].position.x += 0.2;
-    let other = submission(name);
-    let comparison = ListComparison::new(other, reference.list(), list, &reference.run);
-    let page = write_page("hostile", &reference.exploration(Some(&comparison)).page());
+    let comparison = reference.beside(submission(name), list);
+    let exploration = reference.exploration(Some(&comparison));
+    let page = Exploration { table: (&surfaces, &total), ..exploration }.page();
+    let page = write_page("hostile", &page);
     browser.open(&page, "");
     assert_eq!(browser.run("window.hurt"), json!(null));
     assert!(browser.text("document.title").starts_with(name));
@@ -278,21 +279,21 @@ fn a_submission_that_shows_a_misreading_is_told_so() {
     let some = misreading::names().into_iter().filter(|name| *name != "repeated-paths").step_by(4);
     for (name, tells_photons) in some.chain(["third-hit-on"]).zip([true, false].into_iter().cycle())
     {
-        let reference = traced(name);
+        let reference = reference(name);
         let (_, records) = misreading::trace(name, &reference.run).expect("it is in the table");
-        let mut list = PhotonList { records, ..reference.list() };
+        let mut list = PhotonList::of(records);
         list.columns.photon = tells_photons;
         let misreading = misreading::recognize(&list, &reference.run).expect(name);
         assert_eq!(misreading.id, name);
         let expected = format!(">mine.csv: {}</h2>", misreading.section.title());
         let mine = Other::Submission { name: "mine.csv".into(), misreading: Some(misreading) };
-        let comparison = ListComparison::new(mine, reference.list(), list, &reference.run);
+        let comparison = reference.beside(mine, list);
         let page = reference.exploration(Some(&comparison)).page();
         assert!(page.contains(&expected), "{name}: {expected}");
         assert!(page.contains(&format!("This is the misreading {name}.")));
     }
     // The reference itself shows none, nor does a list that breaks off or has other numbers.
-    let reference = traced("");
+    let reference = reference("");
     let shows = |list: &PhotonList| misreading::recognize(list, &reference.run).map(|it| it.id);
     let mut list = reference.list();
     assert_eq!(shows(&list), None);

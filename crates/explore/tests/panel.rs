@@ -1,14 +1,11 @@
 //! The panel's numbers, and the lines it lights, held to the story that `explain` tells.
 
-mod browser;
-mod support;
-
-use browser::launch;
-use compare::explain::{Ending, Hit, Story, explain};
+use crate::browser::{Browser, launch};
+use crate::support::{Traced, handout, write_page};
+use compare::explain::{Ending, Hit, Story, explain, vector};
 use photon_mapping::assignment8;
 use photon_mapping::rendering::sampling::CLOSE_TO_PARALLEL;
 use serde_json::{Value, json};
-use support::{Traced, handout, open_handout, write_page};
 use variants::run::Run;
 
 /// Each step of the photon that is open: its bounce, name, values beside the code and in the words,
@@ -26,10 +23,6 @@ const ALL_STEPS: &str = "page.steps.map((step, at) => { page.go(at); return {
 /// Whether `step` lights the line `code`.
 fn is_lit(step: &Value, code: &str) -> bool {
     step["lit"].as_array().expect("a list").iter().any(|line| line == code)
-}
-
-fn vector(xyz: &[f32; 3]) -> String {
-    compare::explain::vector(xyz)
 }
 
 /// Checks all that the panel shows at the hit `hit`, whose steps are `steps`.
@@ -118,27 +111,38 @@ fn check_story(story: &Story, steps: &Value) {
     }
 }
 
-#[test]
-fn the_panel_has_the_numbers_of_explain() {
-    let Some(browser) = open_handout("#photon=73") else { return };
-    let run = &handout().0;
+/// Checks the stories of `photons` on the page of `run`.
+fn check_stories(browser: &Browser, run: &Run, photons: &[u32]) {
     // Nothing needs to be laid out to be read.
-    browser.run("document.querySelector('main').style.display = 'none'");
-    let mut photons: Vec<u64> = run.records.iter().map(|record| u64::from(record.photon)).collect();
-    photons.dedup();
-    // Photon 73, and 1,000 spread over the run.
-    let mut some = vec![73];
-    some.extend(photons.iter().step_by(photons.len() / 1000));
-    for some in some.chunks(50) {
+    browser.run("document.body.style.display = 'none'");
+    for some in photons.chunks(50) {
         let list = json!(some);
         let steps = browser.run(&format!(
             "{list}.map((photon) => {{ page.open(photon, 0, 'emission'); return {ALL_STEPS}; }})"
         ));
         for (photon, steps) in some.iter().zip(steps.as_array().expect("a list")) {
-            check_story(&explain(&run.run, *photon).expect("emitted"), steps);
+            check_story(&explain(run, u64::from(*photon)).expect("emitted"), steps);
         }
     }
     browser.has_been_quiet();
+}
+
+/// The photons that `run` stores, each once.
+fn photons(run: &Traced) -> Vec<u32> {
+    let mut photons: Vec<_> = run.records.iter().map(|record| record.photon).collect();
+    photons.dedup();
+    photons
+}
+
+#[test]
+fn the_panel_has_the_numbers_of_explain() {
+    let Some(browser) = launch(true) else { return };
+    let (run, page) = handout();
+    browser.open(page, "#photon=73");
+    // Photon 73, and 1,000 spread over the run.
+    let all = photons(run);
+    let some: Vec<_> = all.iter().step_by(all.len() / 1000).copied().chain([73]).collect();
+    check_stories(&browser, &run.run, &some);
 }
 
 #[test]
@@ -148,16 +152,9 @@ fn a_path_that_ends_at_the_bounce_limit_lights_its_return() {
     run.renderer.max_photon_bounces = 1;
     let run = Traced::of(run, None);
     browser.open(&write_page("limit", &run.exploration(None).page()), "");
-    let mut limits = 0;
-    for record in &run.records {
-        let steps = browser.run(&format!(
-            "(() => {{ page.open({}, 0, 'emission'); return {ALL_STEPS}; }})()",
-            record.photon
-        ));
-        let story = explain(&run.run, record.photon.into()).expect("emitted");
-        check_story(&story, &steps);
-        limits += usize::from(story.ending == Ending::BounceLimit);
-    }
+    let photons = photons(&run);
+    check_stories(&browser, &run.run, &photons);
+    let ending = |photon: &&u32| explain(&run.run, u64::from(**photon)).expect("emitted").ending;
+    let limits = photons.iter().filter(|photon| ending(photon) == Ending::BounceLimit).count();
     assert!(limits > 10, "{limits}");
-    browser.has_been_quiet();
 }

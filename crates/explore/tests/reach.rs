@@ -1,15 +1,16 @@
 //! The page for everyone: by keyboard and by touch, on small and large screens, for the
 //! color-blind, with less motion, and without WebGL.
 
-mod browser;
-mod support;
+use crate::browser::launch;
+use crate::support::{float, open_short, short};
 
-use browser::launch;
-use support::{float, handout, open_handout};
+const PICTURE_IS_SHOWN: &str = "(() => { const picture = document.getElementById('picture'); \
+                                return picture.checkVisibility() && picture.naturalWidth === 640; \
+                                })()";
 
 #[test]
 fn the_keyboard_alone_is_enough() {
-    let Some(browser) = open_handout("#photon=73&bounce=0&step=emission") else { return };
+    let Some(browser) = open_short("#photon=73&bounce=0&step=emission") else { return };
     let link = || browser.text("page.link");
     for (key, then) in [
         ("ArrowRight", "bounce=0&step=hit"),
@@ -60,10 +61,10 @@ fn the_keyboard_alone_is_enough() {
             "page.looks.filter((look, i) => i % 2 === 1 && look === {state}).length"
         ))) as u64
     };
-    let of_cell = handout().0.table.0[0].by_bounce[0].stored;
+    let of_cell = short().0.table.0[0].by_bounce[0].stored;
     assert_eq!(states(2), of_cell);
     browser.press("Enter");
-    assert_eq!(states(0), handout().0.records.len() as u64 - of_cell);
+    assert_eq!(states(0), short().0.records.len() as u64 - of_cell);
     browser.has_been_quiet();
 }
 
@@ -71,7 +72,7 @@ fn the_keyboard_alone_is_enough() {
 fn it_works_on_a_phone() {
     let Some(browser) = launch(true) else { return };
     browser.size(390, 844);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    browser.open(&short().1, "#photon=73&bounce=0&step=emission");
     for scheme in ["light", "dark"] {
         browser.media("prefers-color-scheme", scheme);
         for step in ["emission", "hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
@@ -101,8 +102,10 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
     let Some(browser) = launch(true) else { return };
     for (width, height) in [(390, 844), (844, 390)] {
         browser.size(width, height);
+        browser.load(&short().1, "");
         for step in ["hit", "stored", "roulette", "hemisphere", "frame", "ray"] {
-            browser.load(&handout().1, &format!("#photon=73&bounce=0&step={step}"));
+            browser.run("window.scrollTo(0, 0)");
+            browser.run(&format!("page.open(73, 0, '{step}')"));
             let is_in_sight = |selector: &str| {
                 let [_, top, _, bottom] = browser.edges(selector);
                 let place = format!("{selector}, {step} at {width} x {height}: {top} to {bottom}");
@@ -131,9 +134,9 @@ fn box_story_and_code_are_seen_at_once_on_a_phone() {
 #[test]
 fn without_webgl_the_rest_works() {
     let Some(browser) = launch(false) else { return };
-    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    browser.open(&short().1, "#photon=73&bounce=0&step=roulette");
     assert!(browser.text_of("#trouble").contains("WebGL"));
-    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    browser.wait_for(PICTURE_IS_SHOWN);
     let is_seen = "document.getElementById('view').checkVisibility({ visibilityProperty: true })";
     assert_eq!(browser.run(is_seen), false);
     browser.press("ArrowRight");
@@ -147,7 +150,7 @@ fn without_webgl_the_rest_works() {
 fn two_fingers_zoom_and_one_turns() {
     let Some(browser) = launch(true) else { return };
     browser.size(390, 844);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=emission");
+    browser.open(&short().1, "#photon=73&bounce=0&step=emission");
     let of_camera = |what: &str| float(&browser.run(&format!("page.view.camera.{what}")));
     let (distance, yaw) = (of_camera("distance"), of_camera("yaw"));
     let [left, top, right, bottom] = browser.edges("#view");
@@ -163,7 +166,7 @@ fn two_fingers_zoom_and_one_turns() {
 fn it_fills_a_projector() {
     let Some(browser) = launch(true) else { return };
     browser.size(1920, 1080);
-    browser.open(&handout().1, "#photon=73&bounce=0&step=roulette");
+    browser.open(&short().1, "#photon=73&bounce=0&step=roulette");
     let is_too_wide = "document.documentElement.scrollWidth > document.documentElement.clientWidth";
     assert_eq!(browser.run(is_too_wide), false);
     let [left, _, right, _] = browser.edges("#view");
@@ -175,9 +178,9 @@ fn it_fills_a_projector() {
 
 #[test]
 fn a_lost_graphics_context_leaves_picture_table_and_story() {
-    let Some(browser) = open_handout("#photon=73&bounce=0&step=roulette") else { return };
+    let Some(browser) = open_short("#photon=73&bounce=0&step=roulette") else { return };
     browser.run("page.view.gl.getExtension('WEBGL_lose_context').loseContext()");
-    browser.wait_for("document.getElementById('picture').naturalWidth === 640");
+    browser.wait_for(PICTURE_IS_SHOWN);
     browser.press("ArrowRight");
     assert_eq!(browser.text("page.link"), "#photon=73&bounce=0&step=hemisphere");
     browser.click_on("#table td button");
@@ -187,7 +190,7 @@ fn a_lost_graphics_context_leaves_picture_table_and_story() {
 
 #[test]
 fn shapes_tell_what_colors_tell() {
-    let Some(browser) = open_handout("#photon=73") else { return };
+    let Some(browser) = open_short("#photon=73") else { return };
     // The pixels that a large dot of each shape colors.
     let pixels = "(() => { const v = page.view, gl = v.gl, drawn = {}; \
          v.layers.walls.count = 0; for (let shape = 0; shape < 6; shape++) { \
@@ -206,10 +209,7 @@ fn shapes_tell_what_colors_tell() {
     }
     // No two entries of a legend have one shape.
     for mode in ["bounce", "surface"] {
-        browser.run(&format!(
-            "(() => {{ const colors = document.getElementById('colors'); colors.value = '{mode}'; \
-             colors.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
-        ));
+        browser.set("#colors", mode);
         let shapes = "new Set([...document.querySelectorAll('#legend .swatch')].map((dot) => \
                       dot.textContent)).size";
         assert_eq!(browser.run(shapes), 4, "{mode}");
@@ -221,7 +221,7 @@ fn shapes_tell_what_colors_tell() {
 
 #[test]
 fn no_label_covers_another() {
-    let Some(browser) = open_handout("") else { return };
+    let Some(browser) = open_short("") else { return };
     let overlaps = "(() => { const spans = [...document.querySelectorAll('#over .label')]; const \
          boxes = spans.filter((span) => span.style.display !== 'none')\
          .map((span) => span.getBoundingClientRect()); \
@@ -229,14 +229,13 @@ fn no_label_covers_another() {
          a.right && a.top < b.bottom && b.top < a.bottom)); })()";
     let mut steps = 0;
     for photon in [73, 85, 3101] {
-        browser.run(&format!("page.open({photon}, 0, 'emission')"));
-        let count = float(&browser.run("page.steps.length")) as usize;
-        for step in 0..count {
-            browser.run(&format!("page.go({step})"));
-            browser.settle();
-            assert_eq!(browser.run(overlaps), false, "photon {photon}, step {step}");
-        }
-        steps += count;
+        let of_photon = browser.run(&format!(
+            "page.open({photon}, 0, 'emission'); page.steps.map((step, at) => {{ page.go(at); \
+             page.view.drawNow(); return {overlaps}; }})"
+        ));
+        let of_photon = of_photon.as_array().expect("a list");
+        assert!(of_photon.iter().all(|overlaps| overlaps == false), "{photon}: {of_photon:?}");
+        steps += of_photon.len();
     }
     assert!(steps > 30, "{steps}");
 }

@@ -10,12 +10,6 @@ impl Browser {
         self.nth_click(x, y, 1);
     }
 
-    /// Clicks twice at the CSS pixel (`x`, `y`) of the window.
-    pub fn double_click(&self, x: f64, y: f64) {
-        self.nth_click(x, y, 1);
-        self.nth_click(x, y, 2);
-    }
-
     /// The click that is the `count`th in a row.
     fn nth_click(&self, x: f64, y: f64, count: u32) {
         for kind in ["mouseMoved", "mousePressed", "mouseReleased"] {
@@ -48,6 +42,25 @@ impl Browser {
         ));
         let [left, top, right, bottom] = self.edges(selector);
         self.click((left + right) / 2.0, (top + bottom) / 2.0);
+    }
+
+    /// Sets the field `selector` to `value`.
+    pub fn set(&self, selector: &str, value: &str) {
+        self.run(&format!(
+            "for (const kind of ['input', 'change']) {{ const field = \
+             document.querySelector({selector:?}); field.value = {value:?}; \
+             field.dispatchEvent(new Event(kind, {{ bubbles: true }})); }}"
+        ));
+    }
+
+    /// Clicks where the box shows the place `place`, a JavaScript expression.
+    pub fn click_at(&self, place: &str, count: u32) {
+        let [left, top, ..] = self.edges("#view");
+        let at = self.run(&format!("page.view.project({place})"));
+        let [x, y] = [0, 1].map(|i| at[i].as_f64().expect("it is in sight"));
+        for count in 1..=count {
+            self.nth_click(left + x, top + y, count);
+        }
     }
 
     /// Touches the CSS pixel (`x`, `y`) of the window.

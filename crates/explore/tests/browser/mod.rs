@@ -2,14 +2,14 @@
 //!
 //! The crates that do this bring 80 others and a minute of compilation, most of it for a Rust type
 //! for each of the protocol's messages. These tests need nine of them, and `serde_json` is here.
-#![allow(dead_code, reason = "no test uses all of it")]
-
 mod input;
 
 use std::cell::{Cell, RefCell};
 use std::io::{BufRead, BufReader, Cursor, Write};
+use std::ops::Deref;
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{ChildStdin, Command, Stdio};
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
@@ -19,55 +19,77 @@ use serde_json::{Value, json};
 /// No answer takes longer, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A page in a browser of its own. The browser ends when this is dropped.
+/// Browsers that no test uses. To start one and its first page takes two seconds of a processor.
+static FREE: Mutex<Vec<Browser>> = Mutex::new(Vec::new());
+
+/// A browser with one window. It ends when its pipes close.
 pub struct Browser {
-    child: Child,
     to: RefCell<ChildStdin>,
     from: Receiver<Value>,
     next_id: Cell<u64>,
-    session: String,
+    window: Value,
+    session: RefCell<String>,
     /// What the page logged, and what it asked the network for.
     events: RefCell<Vec<Value>>,
-    _profile: tempfile::TempDir,
 }
+
+/// A browser that is free again when this is dropped.
+pub struct Borrowed(Option<Browser>);
 
 /// A browser, with WebGL in software or with none. Nothing, with a message, where there is no
 /// Chromium; where `PHOTON_MAPPING_CHROMIUM` is set there must be one.
-pub fn launch(with_webgl: bool) -> Option<Browser> {
-    let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
-    let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
-    match found {
-        Ok(_) => Some(Browser::start(with_webgl)),
-        Err(error) if is_expected => panic!("chromium cannot be run: {error}"),
-        Err(error) => {
-            eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
-            None
+pub fn launch(with_webgl: bool) -> Option<Borrowed> {
+    let free = FREE.lock().expect("no test panics here").pop();
+    let browser = free.or_else(Browser::start)?;
+    browser.attach();
+    if !with_webgl {
+        let without = "HTMLCanvasElement.prototype.getContext = () => null";
+        browser.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": without }));
+    }
+    Some(Borrowed(Some(browser)))
+}
+
+impl Deref for Borrowed {
+    type Target = Browser;
+
+    fn deref(&self) -> &Browser {
+        self.0.as_ref().expect("it is there until this is dropped")
+    }
+}
+
+impl Drop for Borrowed {
+    fn drop(&mut self) {
+        let browser = self.0.take().filter(|_| !std::thread::panicking());
+        if let Some(browser) = browser {
+            browser.detach();
+            FREE.lock().expect("no test panics here").push(browser);
         }
     }
 }
 
 impl Browser {
-    fn start(with_webgl: bool) -> Self {
-        let profile = tempfile::tempdir().expect("a folder can be made");
-        let gl: &[&str] = if with_webgl {
-            &["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-        } else {
-            &["--disable-3d-apis"]
-        };
-        // The protocol's pipes are the descriptors 3 and 4.
+    fn start() -> Option<Self> {
+        let is_expected = std::env::var_os("PHOTON_MAPPING_CHROMIUM").is_some();
+        let found = Command::new("chromium").arg("--version").stdout(Stdio::null()).status();
+        if let Err(error) = found {
+            assert!(!is_expected, "chromium cannot be run: {error}");
+            eprintln!("SKIPPED: chromium cannot be run ({error}); no page was opened");
+            return None;
+        }
+        // The protocol's pipes are the descriptors 3 and 4. The shell removes what Chromium leaves.
+        let script = "profile=$(mktemp -d); \"$@\" \"--user-data-dir=$profile\" \
+                      3<&0 4>&1 </dev/null >/dev/null 2>&1; rm -rf \"$profile\"";
         let mut child = Command::new("sh")
-            .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>&1", "sh", "chromium"])
+            .args(["-c", script, "sh", "chromium"])
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"])
-            .args(["--no-first-run", "--disable-background-networking"])
+            .args(["--no-startup-window", "--no-first-run", "--disable-background-networking"])
             .args(["--disable-component-update", "--disable-sync", "--remote-debugging-pipe"])
-            .args(gl)
-            .arg(format!("--user-data-dir={}", profile.path().display()))
-            .arg("about:blank")
+            .args(["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .expect("a shell can be run");
-        let to = child.stdin.take().expect("piped");
+        let to = RefCell::new(child.stdin.take().expect("piped"));
         let mut messages = BufReader::new(child.stdout.take().expect("piped"));
         let (sender, from) = channel();
         std::thread::spawn(move || {
@@ -80,42 +102,50 @@ impl Browser {
                     break;
                 }
             }
+            child.wait()
         });
-        let mut browser = Self {
-            child,
-            to: RefCell::new(to),
-            from,
-            next_id: Cell::new(1),
-            session: String::new(),
-            events: RefCell::default(),
-            _profile: profile,
-        };
-        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
-        let attach = json!({ "targetId": target["targetId"], "flatten": true });
-        let attached = browser.call("Target.attachToTarget", attach);
-        browser.session = attached["sessionId"].as_str().expect("a name").to_owned();
+        let (next_id, events) = (Cell::new(1), RefCell::default());
+        let (window, session) = (Value::Null, RefCell::default());
+        let mut browser = Self { to, from, next_id, window, session, events };
+        let blank = json!({ "url": "about:blank" });
+        browser.window = browser.call("Target.createTarget", blank)["targetId"].take();
+        Some(browser)
+    }
+
+    /// Begins a session with the window.
+    fn attach(&self) {
+        let attach = json!({ "targetId": self.window, "flatten": true });
+        let attached = self.call("Target.attachToTarget", attach);
+        attached["sessionId"].as_str().expect("a name").clone_into(&mut self.session.borrow_mut());
         for domain in ["Page", "Runtime", "Log", "Network"] {
-            browser.call(&format!("{domain}.enable"), json!({}));
+            self.call(&format!("{domain}.enable"), json!({}));
         }
-        browser.size(1280, 800);
-        browser
+        self.size(1280, 800);
+    }
+
+    /// Ends the session, and with it all that it set.
+    fn detach(&self) {
+        self.call("Page.navigate", json!({ "url": "about:blank" }));
+        let session = self.session.take();
+        self.call("Target.detachFromTarget", json!({ "sessionId": session }));
+        self.events.take();
     }
 
     /// Calls a method of the protocol and gives its result.
     pub fn call(&self, method: &str, parameters: Value) -> Value {
         let id = self.next_id.replace(self.next_id.get() + 1);
         let mut message = json!({ "id": id, "method": method, "params": parameters });
-        if !self.session.is_empty() {
+        if !self.session.borrow().is_empty() {
             message["sessionId"] = json!(self.session);
         }
         let mut to = self.to.borrow_mut();
         write!(to, "{message}\0").and_then(|()| to.flush()).expect("the browser is running");
         loop {
             let answer = self.from.recv_timeout(PATIENCE);
-            let answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
+            let mut answer = answer.unwrap_or_else(|_| panic!("{method}: no answer"));
             if answer["id"] == id {
                 assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-                return answer["result"].clone();
+                return answer["result"].take();
             }
             self.events.borrow_mut().push(answer);
         }
@@ -125,9 +155,9 @@ impl Browser {
     pub fn run(&self, expression: &str) -> Value {
         let parameters =
             json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
-        let result = self.call("Runtime.evaluate", parameters);
+        let mut result = self.call("Runtime.evaluate", parameters);
         assert!(result["exceptionDetails"].is_null(), "{expression}: {result}");
-        result["result"]["value"].clone()
+        result["result"]["value"].take()
     }
 
     /// [`Self::run`], where the value is text.
@@ -159,10 +189,11 @@ impl Browser {
     /// Opens `page` at `link`, and waits until it is ready.
     pub fn load(&self, page: &Path, link: &str) {
         // Another link alone would not load the page again.
-        self.call("Page.navigate", json!({ "url": "about:blank" }));
-        let url = format!("file://{}{link}", page.display());
+        let visit = self.next_id.get();
+        let url = format!("file://{}?{visit}{link}", page.display());
         self.call("Page.navigate", json!({ "url": url }));
-        self.wait_for("document.body?.dataset.ready === 'yes'");
+        let is_it = format!("location.search === '?{visit}'");
+        self.wait_for(&format!("{is_it} && document.body?.dataset.ready === 'yes'"));
     }
 
     /// Waits until `condition` holds.
@@ -213,29 +244,18 @@ impl Browser {
     pub fn has_been_quiet(&self) {
         self.run("0");
         for event in self.events.borrow().iter() {
-            let (method, parameters) = (event["method"].as_str(), &event["params"]);
-            match method {
-                Some("Runtime.exceptionThrown") => panic!("{parameters}"),
-                Some("Runtime.consoleAPICalled") if parameters["type"] == "error" => {
-                    panic!("{parameters}")
-                }
-                Some("Log.entryAdded") if parameters["entry"]["level"] == "error" => {
-                    panic!("{parameters}")
-                }
+            let parameters = &event["params"];
+            let url = parameters["request"]["url"].as_str().unwrap_or_default();
+            let is_wrong = match event["method"].as_str() {
+                Some("Runtime.exceptionThrown") => true,
+                Some("Runtime.consoleAPICalled") => parameters["type"] == "error",
+                Some("Log.entryAdded") => parameters["entry"]["level"] == "error",
                 Some("Network.requestWillBeSent") => {
-                    let url = parameters["request"]["url"].as_str().expect("an address");
-                    let of_itself = ["file:", "data:", "about:"];
-                    assert!(of_itself.iter().any(|kind| url.starts_with(kind)), "{url}");
+                    !["file:", "data:"].iter().any(|kind| url.starts_with(kind))
                 }
-                _ => {}
-            }
+                _ => false,
+            };
+            assert!(!is_wrong, "{event}");
         }
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
