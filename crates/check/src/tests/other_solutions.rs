@@ -4,10 +4,9 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::{handed_in, kit};
+use super::{handed_in, kit, statuses};
 use crate::checking::{CheckSettings, check};
 use crate::find::CppSubmission;
-use crate::sections::Status;
 
 /// Folder, what is in it, and for emission, storage, scattering, sampling and transformation `+`
 /// where it is right and `x` where it is wrong.
@@ -37,15 +36,7 @@ fn every_section_of_other_solutions_gets_its_answer() {
             let submission = CppSubmission::find(&folder.join(name)).expect("a submission");
             let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
             let report = check(&submission, kit, &settings).expect("it can be checked");
-            let found: String = report
-                .sections
-                .iter()
-                .map(|verdict| match verdict.status {
-                    Status::Right | Status::RightUnderAnotherReading => '+',
-                    Status::Wrong => 'x',
-                    Status::NotReached => '?',
-                })
-                .collect();
+            let found = statuses(&report).replace('~', "+");
             assert_eq!(found, *expected, "{name}: {what}: {:#?}", report.sections);
         }
     };
