@@ -14,7 +14,7 @@ use crate::error::CheckError;
 use crate::events::Notice;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
 use crate::kit::Kit;
-use crate::plan::PlanStep;
+use crate::plan::{CALLS_AROUND, Counts, PlanStep};
 use crate::report::{Builds, CheckReport};
 use crate::run::{Observed, run};
 use crate::sections;
@@ -72,7 +72,8 @@ pub fn check(
             return Ok(report);
         }
     };
-    let observed = run(&program, workshop.path(), settings.photons, settings.time)?;
+    let counts = Counts { photons: settings.photons, around: CALLS_AROUND };
+    let observed = run(&program, workshop.path(), counts, settings.time)?;
     report.seconds[1] = observed.seconds;
     if let Some(death) = &observed.before_any {
         let what = death.sentence();

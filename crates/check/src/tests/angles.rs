@@ -2,12 +2,17 @@
 
 use variants::section::Section;
 
-use super::cases::{Change, Faults, tells};
+use super::cases::{Change, Faults, program, tells, wrong};
+use crate::plan::CALLS_AROUND;
 
 const THETA: &str = "2.f * 3.14159265f * u2";
 const LOOP: &str = "do {";
 const NUMBER: &str = "(float)rand() / RAND_MAX";
 const IN_DEGREES: Faults = &[(Section::HemisphereSampling, Some("angle-in-degrees"))];
+/// As many directions show what 180 degrees leave: twelve standard deviations.
+const FOR_180: u64 = 500_000;
+/// As many show a gap of a hundredth of the circle: twice the limit.
+const FOR_GAP: u64 = 200_000;
 const LOOKS_LIKE_360: &str = "theta looks like degrees, 360 times";
 const LOOKS_LIKE_180: &str = "theta looks like degrees, 180 times";
 
@@ -73,17 +78,18 @@ fn angles_from_known_numbers_are_told() {
 /// The numbers of an engine are unknown: only millions of directions tell.
 #[test]
 fn angles_are_told_whatever_draws_them() {
-    let cases: [(&str, Change, Faults, &str); 15] = [
-        (STATIC_ENGINE, (THETA, "360 * u2"), IN_DEGREES, LOOKS_LIKE_360),
-        (STATIC_ENGINE, (THETA, "180.f * u2"), IN_DEGREES, LOOKS_LIKE_180),
-        (NEW_ENGINE, (THETA, "360 * u2"), IN_DEGREES, LOOKS_LIKE_360),
-        (NEW_ENGINE, (THETA, "180 * u2"), IN_DEGREES, LOOKS_LIKE_180),
-        (DEVICE, (THETA, "-360.0 * u2"), IN_DEGREES, LOOKS_LIKE_360),
-        (PRINTING, (THETA, "360 * u2"), IN_DEGREES, LOOKS_LIKE_360),
+    let cases: [(&str, Change, u64, Faults, &str); 15] = [
+        (STATIC_ENGINE, (THETA, "360 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        (STATIC_ENGINE, (THETA, "180.f * u2"), FOR_180, IN_DEGREES, LOOKS_LIKE_180),
+        (NEW_ENGINE, (THETA, "360 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        (NEW_ENGINE, (THETA, "180 * u2"), FOR_180, IN_DEGREES, LOOKS_LIKE_180),
+        (DEVICE, (THETA, "-360.0 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        (PRINTING, (THETA, "360 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
         // The light's, beside the right theta.
         (
             STATIC_ENGINE,
             (LOOP, AROUND_Y),
+            CALLS_AROUND,
             &[(Section::PhotonEmission, Some("angle-in-degrees"))],
             "looks like degrees",
         ),
@@ -91,21 +97,23 @@ fn angles_are_told_whatever_draws_them() {
         (
             STATIC_ENGINE,
             (THETA, "2 * 3.1f * u2"),
+            FOR_GAP,
             &[(Section::HemisphereSampling, Some("not-even-around"))],
             "",
         ),
-        (STATIC_ENGINE, (THETA, THETA), &[], ""),
-        (STATIC_ENGINE, (THETA, "2 * 3.14 * u2"), &[], ""),
-        (NEW_ENGINE, (THETA, "2 * 3.14 * u2"), &[], ""),
-        (NEW_LARGE_ENGINE, (THETA, "2 * M_PI * u2"), &[], ""),
-        (DEVICE, (THETA, "2 * 3.14 * u2"), &[], ""),
+        (STATIC_ENGINE, (THETA, THETA), FOR_GAP, &[], ""),
+        (STATIC_ENGINE, (THETA, "2 * 3.14 * u2"), FOR_GAP, &[], ""),
+        (NEW_ENGINE, (THETA, "2 * 3.14 * u2"), FOR_GAP, &[], ""),
+        (NEW_LARGE_ENGINE, (THETA, "2 * M_PI * u2"), FOR_GAP, &[], ""),
+        (DEVICE, (THETA, "2 * 3.14 * u2"), FOR_GAP, &[], ""),
         (
             "static std::mt19937 engine; return engine() % 100 / 100.f;",
             (THETA, "2 * M_PI * u2"),
+            CALLS_AROUND,
             &[],
             "",
         ),
-        ("return rand() % 100 / 100.f;", (THETA, "2 * M_PI * u2"), &[], ""),
+        ("return rand() % 100 / 100.f;", (THETA, "2 * M_PI * u2"), FOR_GAP, &[], ""),
     ];
     let [light, renderer] = [
         "#include \"common/Scene/Lights/Point/PointLight.h\"",
@@ -122,8 +130,11 @@ fn angles_are_told_whatever_draws_them() {
         let [of_light, of_renderer] = &defined[case];
         [(light, of_light), (renderer, of_renderer), cases[case].1, (NUMBER, "Draw()")]
     });
-    let cases = cases.iter().zip(&changes);
-    tells(&cases.map(|((.., faults, words), all)| (&all[..], *faults, *words)).collect::<Vec<_>>());
+    let Some(program) = program(&changes) else { return };
+    for (case, (draw, change, around, expected, words)) in cases.into_iter().enumerate() {
+        let wrong = wrong(&program.report(case, around), expected, words);
+        assert_eq!(wrong, None, "{draw}: {change:?}");
+    }
 }
 
 /// A large engine made in every call is slow: on a busy machine, too slow for 360 degrees.
@@ -133,16 +144,14 @@ fn angles_in_degrees_are_told_of_engines_made_in_every_call() {
     std::mt19937 engine(device());
     std::uniform_real_distribution<float> uniform(0.f, 1.f);
     const Material* material";
-    tells(&[(
-        &[
-            ("#include <ctime>", "#include <ctime>\n#include <random>"),
-            ("const Material* material", engine),
-            ("if ((float)rand() / RAND_MAX", "if (uniform(engine)"),
-            ("u1 = (float)rand() / RAND_MAX", "u1 = uniform(engine)"),
-            ("u2 = (float)rand() / RAND_MAX", "u2 = uniform(engine)"),
-            (THETA, "180 * u2"),
-        ],
-        IN_DEGREES,
-        LOOKS_LIKE_180,
-    )]);
+    let changes = [
+        ("#include <ctime>", "#include <ctime>\n#include <random>"),
+        ("const Material* material", engine),
+        ("if ((float)rand() / RAND_MAX", "if (uniform(engine)"),
+        ("u1 = (float)rand() / RAND_MAX", "u1 = uniform(engine)"),
+        ("u2 = (float)rand() / RAND_MAX", "u2 = uniform(engine)"),
+        (THETA, "180 * u2"),
+    ];
+    let Some(program) = program(&[changes]) else { return };
+    assert_eq!(wrong(&program.report(0, FOR_180), IN_DEGREES, LOOKS_LIKE_180), None);
 }

@@ -7,12 +7,16 @@ use std::time::Duration;
 use super::{faults, handed_in, kit, read, sections_text};
 use crate::checking::add_verdicts;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
+use crate::plan::Counts;
 use crate::report::CheckReport;
 use crate::run::{Observed, run};
 use crate::workshop::Workshop;
 use variants::section::Section;
 
 const TIME: Duration = Duration::from_secs(60);
+const PHOTONS: u64 = 2000;
+/// Directions around an axis, where degrees are no matter.
+pub(super) const FEW: u64 = 100_000;
 
 /// A text of `one_function`, and what replaces it.
 pub(super) type Change<'a> = (&'a str, &'a str);
@@ -38,18 +42,28 @@ impl Program {
         Some(Self { workshop, path })
     }
 
-    /// What it does under this name, with so many photons in the whole run.
-    pub(super) fn run(&self, name: &str, photons: u64, time: Duration) -> Observed {
+    /// What it does under this name, with so many directions around an axis.
+    pub(super) fn run(&self, name: &str, around: u64, time: Duration) -> Observed {
         let folder = self.workshop.path().join("runs").join(name);
         fs::create_dir_all(&folder).expect("can be made");
         // A copy could still be open for writing where another test starts a program.
         fs::hard_link(&self.path, folder.join(name)).expect("can be linked");
-        run(&folder.join(name), &folder, photons, time).expect("it runs")
+        let counts = Counts { photons: PHOTONS, around };
+        run(&folder.join(name), &folder, counts, time).expect("it runs")
+    }
+
+    /// The report on the case with this number.
+    pub(super) fn report(&self, case: usize, around: u64) -> CheckReport {
+        let mut report = CheckReport::new(&CppSubmission::default(), PHOTONS);
+        let observed = self.run(&case.to_string(), around, TIME);
+        assert_eq!(observed.before_any, None);
+        add_verdicts(observed, &mut report);
+        report
     }
 }
 
-/// The reports on `one_function` with the changes of each case; none without a compiler.
-pub(super) fn reports<'a>(cases: &[impl AsRef<[Change<'a>]>]) -> Vec<CheckReport> {
+/// A program for `one_function` with the changes of each case; nothing without a compiler.
+pub(super) fn program<'a>(cases: &[impl AsRef<[Change<'a>]>]) -> Option<Program> {
     let folder = tempfile::tempdir().expect("a folder");
     let texts: Vec<_> = cases.iter().map(|changes| changed(changes.as_ref())).collect();
     for (at, name) in [LIGHT, RENDERER].into_iter().enumerate() {
@@ -57,31 +71,27 @@ pub(super) fn reports<'a>(cases: &[impl AsRef<[Change<'a>]>]) -> Vec<CheckReport
         fs::write(folder.path().join(name), one_of(&texts.collect::<Vec<_>>()))
             .expect("can be written");
     }
-    let Some(program) = Program::new(folder.path()) else { return Vec::new() };
-    let report = |case: usize| {
-        let mut report = CheckReport::new(&CppSubmission::default(), 2000);
-        let observed = program.run(&case.to_string(), report.whole.photons, TIME);
-        assert_eq!(observed.before_any, None);
-        add_verdicts(observed, &mut report);
-        report
-    };
-    (0..cases.len()).map(report).collect()
+    Program::new(folder.path())
+}
+
+/// What is wrong where not just these faults are told, and these words among them.
+pub(super) fn wrong(report: &CheckReport, expected: Faults, words: &str) -> Option<String> {
+    let told = report.sections.iter().flat_map(|verdict| &verdict.faults);
+    let told = told.map(|fault| format!("{} -> {}\n", fault.found, fault.advice));
+    let is_right = faults(report) == expected && told.collect::<String>().contains(words);
+    let found = || format!("expected {expected:?}, {words:?}\n{}", sections_text(report));
+    (!is_right).then(found)
 }
 
 /// Checks that just these faults are told of each case, and these words among them; the reports.
 pub(super) fn tells(cases: &[(&[Change], Faults, &str)]) -> Vec<CheckReport> {
     let changes: Vec<_> = cases.iter().map(|(changes, ..)| *changes).collect();
-    let reports = reports(&changes);
-    let mut wrong = Vec::new();
-    for ((changes, expected, words), report) in cases.iter().zip(&reports) {
-        let told = report.sections.iter().flat_map(|verdict| &verdict.faults);
-        let told = told.map(|fault| format!("{} -> {}\n", fault.found, fault.advice));
-        if faults(report) != *expected || !told.collect::<String>().contains(words) {
-            let found = sections_text(report);
-            wrong.push(format!("{changes:?}: expected {expected:?}, {words:?}\n{found}"));
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let Some(program) = program(&changes) else { return Vec::new() };
+    let reports: Vec<_> = (0..cases.len()).map(|case| program.report(case, FEW)).collect();
+    let wrong = cases.iter().zip(&reports).filter_map(|((changes, expected, words), report)| {
+        Some(format!("{changes:?}: {}", wrong(report, expected, words)?))
+    });
+    assert_eq!(wrong.collect::<Vec<_>>(), [""; 0]);
     reports
 }
 

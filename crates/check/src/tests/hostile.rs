@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::cases::Program;
+use super::cases::{FEW, Program};
 use super::handed_in;
 use crate::sections::{Status, judge};
 
@@ -50,7 +50,7 @@ fn what_misbehaves_is_told_in_a_line_and_stops_nothing_else() {
         fs::copy(tests.join(file), folder.path().join(name)).expect("can be copied");
     }
     let Some(program) = Program::new(folder.path()) else { return };
-    let observed = |deed: &str| program.run(deed, 100, TIME);
+    let observed = |deed: &str| program.run(deed, FEW, TIME);
     for (deed, words) in DEEDS {
         let start = Instant::now();
         let observed = observed(deed);

@@ -5,15 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use super::cases::Program;
+use super::cases::{FEW, Program};
 use super::handed_in;
+use crate::plan::CALLS_AROUND;
 use crate::sections::{SectionVerdict, Status, judge};
 use variants::section::Section;
 
 const TIME: Duration = Duration::from_secs(60);
-/// The time of a probe, where it need not count a million directions.
-const LITTLE: Duration = Duration::from_secs(1);
-/// The mistake for which it must.
+/// The mistake for which a million directions must be counted.
 const DEGREES: u8 = 21;
 
 /// The mistakes, by their numbers in `styles/mistake.h`, with the section and name of the fault.
@@ -64,8 +63,8 @@ fn try_style(name: &str) {
     }
     let Some(program) = Program::new(folder.path()) else { return };
     let verdicts = |mistake: u8| {
-        let time = if mistake == DEGREES { TIME } else { LITTLE };
-        judge(&program.run(&mistake.to_string(), 100, time))
+        let around = if mistake == DEGREES { CALLS_AROUND } else { FEW };
+        judge(&program.run(&mistake.to_string(), around, TIME))
     };
     let mut wrong = Vec::new();
     for (mistake, section, name) in MISTAKES {
