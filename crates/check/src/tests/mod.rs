@@ -13,6 +13,7 @@ mod styles_of_state;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use variants::section::Section;
 
@@ -45,6 +46,17 @@ fn kit() -> Option<&'static Kit> {
 /// Where all tests of the workspace keep the kit: beside the folders of what cargo builds.
 fn target() -> Option<PathBuf> {
     Some(std::env::current_exe().ok()?.ancestors().nth(3)?.join("tmp"))
+}
+
+/// Does `work` on all of `items`, two at a time: some only wait.
+fn two_at_a_time<T: Sync>(items: &[T], work: impl Fn(&T) + Sync) {
+    let next = AtomicUsize::new(0);
+    let work_on = || {
+        while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+            work(item);
+        }
+    };
+    std::thread::scope(|scope| (0..2).for_each(|_| drop(scope.spawn(work_on))));
 }
 
 /// The folder of what the tests hand in.
