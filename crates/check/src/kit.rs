@@ -42,6 +42,8 @@ pub(crate) const ASSETS: &[(&str, &str)] = assets![
     "harness/first.hpp",
     "harness/guard.cpp",
     "harness/harness.cpp",
+    "harness/plan.cpp",
+    "harness/plan.hpp",
     "harness/random.cpp",
     "harness/recorder.cpp",
     "harness/recorder.hpp",
