@@ -14,8 +14,8 @@ use crate::error::CheckError;
 use crate::events::Notice;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
 use crate::kit::Kit;
-use crate::plan::PlanStep;
-use crate::report::{Builds, CheckReport, Whole};
+use crate::plan::{CALLS_AROUND, Counts, PlanStep};
+use crate::report::{Builds, CheckReport};
 use crate::run::{Observed, run};
 use crate::sections;
 use crate::workshop::Workshop;
@@ -49,15 +49,7 @@ pub fn check(
     kit: &Kit,
     settings: &CheckSettings,
 ) -> Result<CheckReport, CheckError> {
-    let mut report = CheckReport {
-        submission: submission.name.clone(),
-        builds: Builds::Yes,
-        sections: Vec::new(),
-        whole: Whole { photons: settings.photons, ..Whole::default() },
-        remarks: submission.notes.clone(),
-        seconds: [0.0; 2],
-        list: None,
-    };
+    let mut report = CheckReport::new(submission, settings.photons);
     let (light, renderer) = match (&submission.light, &submission.renderer) {
         (Some(light), Some(renderer)) => (light, renderer),
         (None, _) => {
@@ -80,7 +72,8 @@ pub fn check(
             return Ok(report);
         }
     };
-    let observed = run(&program, workshop.path(), settings.photons, settings.time)?;
+    let counts = Counts { photons: settings.photons, around: CALLS_AROUND };
+    let observed = run(&program, workshop.path(), counts, settings.time)?;
     report.seconds[1] = observed.seconds;
     if let Some(death) = &observed.before_any {
         let what = death.sentence();
@@ -92,13 +85,18 @@ pub fn check(
         let names = missing.join(", ");
         report.remarks.push(format!("included, not handed in, and not needed: {names}"));
     }
+    add_verdicts(observed, &mut report);
+    Ok(report)
+}
+
+/// Adds to `report` what is said of `observed`.
+pub(crate) fn add_verdicts(observed: Observed, report: &mut CheckReport) {
     report.sections = sections::judge(&observed);
     report.remarks.extend(remarks(&observed));
-    add_whole(observed, &mut report);
+    add_whole(observed, report);
     if report.whole.is_reference() {
         sections::refute(&mut report.sections);
     }
-    Ok(report)
 }
 
 fn remarks(observed: &Observed) -> Vec<String> {

@@ -9,7 +9,7 @@ use crate::diagnostics::{BuildError, missing_header, missing_in_list, parse_erro
 use crate::error::CheckError;
 use crate::find::{LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER};
 use crate::foreign::{file_directive, starts_with_our_header, take_headers};
-use crate::kit::STANDARD;
+use crate::kit::{HARNESS, STANDARD};
 use crate::sandbox::Exit;
 use crate::workshop::Workshop;
 
@@ -25,14 +25,15 @@ impl Workshop<'_> {
     /// error.
     pub fn build(&self, jobs: usize) -> Result<Result<PathBuf, BuildError>, CheckError> {
         let submission = self.path().join("submission");
-        let harness = self.kit.path().join("harness/all.cpp");
+        let [first, rest] = HARNESS.map(|source| self.kit.path().join(source));
         // The student's own files speak first: the harness fails where their headers do.
         let sources = [
             submission.join(RENDERER_FOLDER).join(RENDERER),
             submission.join(LIGHT_FOLDER).join(LIGHT),
-            harness.clone(),
+            first,
+            rest,
         ];
-        let compile = |source: &PathBuf| self.compile_one(source, &harness);
+        let compile = |source: &PathBuf| self.compile_one(source);
         let mut early = Vec::new();
         if jobs > 1 {
             std::thread::scope(|scope| {
@@ -55,18 +56,16 @@ impl Workshop<'_> {
         self.link_with_others(objects, others)
     }
 
-    fn compile_one(
-        &self,
-        source: &Path,
-        harness: &Path,
-    ) -> Result<Result<Object, BuildError>, CheckError> {
-        let is_harness = source == harness;
-        if !is_harness || self.has_own_headers() {
-            return self.compile(source, is_harness);
+    fn compile_one(&self, source: &Path) -> Result<Result<Object, BuildError>, CheckError> {
+        let of_harness = HARNESS.iter().position(|name| source.ends_with(name));
+        match of_harness.filter(|at| *at > 0 || !self.has_own_headers()) {
+            None => self.compile(source, of_harness.is_some()),
+            Some(at) => {
+                let compile = || Ok(self.compile(source, true)?.map(|object| object.path));
+                let kept = self.kit.harness(at, compile)?;
+                Ok(kept.map(|path| Object { path, sources: BTreeSet::new() }))
+            }
         }
-        let compile = || Ok(self.compile(source, true)?.map(|object| object.path));
-        let kept = self.kit.harness(compile)?;
-        Ok(kept.map(|path| Object { path, sources: BTreeSet::new() }))
     }
 
     pub(crate) fn compile(

@@ -20,8 +20,9 @@ pub(crate) const FIRST_HEADERS: [&str; 2] = [
     "standin/common/Rendering/Renderer/Photon/PhotonMappingRenderer.h",
     "standin/common/Scene/Lights/Point/PointLight.h",
 ];
-/// The harness, compiled for submissions that replace no header of the framework.
-pub(crate) const HARNESS: &str = "harness.o";
+/// The sources of the harness. The first is compiled anew for submissions that replace a header of
+/// the framework.
+pub(crate) const HARNESS: [&str; 2] = ["harness/harness.cpp", "harness/rest.cpp"];
 /// For as many submissions, precompiled headers take less time than they save.
 const MANY: usize = 6;
 /// How the names of our folders begin.
@@ -37,14 +38,16 @@ macro_rules! assets {
 
 /// The C++ files, by their paths under the kit's folder.
 pub(crate) const ASSETS: &[(&str, &str)] = assets![
-    "harness/all.cpp",
     "harness/around.cpp",
     "harness/first.hpp",
     "harness/guard.cpp",
     "harness/harness.cpp",
+    "harness/plan.cpp",
+    "harness/plan.hpp",
     "harness/random.cpp",
     "harness/recorder.cpp",
     "harness/recorder.hpp",
+    "harness/rest.cpp",
     "harness/scene.cpp",
     // Those that people plug into the framework themselves, by links to `interop/cpp`.
     "standin/photon_dump.hpp",
@@ -87,8 +90,8 @@ pub struct Kit {
     pub(crate) system: Vec<PathBuf>,
     /// Whether the compiler is clang, which assembles by itself.
     pub(crate) is_clang: bool,
-    /// Held while the harness is compiled.
-    harness: Mutex<()>,
+    /// Held while the sources of the harness are compiled.
+    harness: [Mutex<()>; 2],
 }
 
 impl Kit {
@@ -128,7 +131,7 @@ impl Kit {
             }
         };
         let is_clang = version.contains("clang");
-        let (harness, _locks) = (Mutex::new(()), [lock, lock_of_home]);
+        let (harness, _locks) = (Default::default(), [lock, lock_of_home]);
         Ok(Self { folder, home, _locks, compiler, glm, system, is_clang, harness })
     }
 
@@ -147,7 +150,7 @@ impl Kit {
     /// first header that a file includes.
     pub fn prepare_for(&self, submissions: usize) {
         // Clang would have to be told in every call, and would then take it in any case.
-        if self.is_clang || (submissions < MANY && !self.path().join(HARNESS).exists()) {
+        if self.is_clang || (submissions < MANY && !self.object(0).exists()) {
             return;
         }
         let precompile = |header: &str| {
@@ -183,15 +186,21 @@ impl Kit {
         command
     }
 
-    /// The object file of the harness for submissions that replace no header of it. The first one
-    /// compiles it with `compile`, which gives the path of the object, or what is wrong.
+    /// Where an object file of the harness is kept, for submissions that replace no header of it.
+    pub(crate) fn object(&self, of_harness: usize) -> PathBuf {
+        self.path().join(HARNESS[of_harness]).with_extension("o")
+    }
+
+    /// An object file of the harness. The first submission compiles it with `compile`, which gives
+    /// the path of the object, or what is wrong.
     pub(crate) fn harness<E>(
         &self,
+        of_harness: usize,
         compile: impl FnOnce() -> Result<Result<PathBuf, E>, CheckError>,
     ) -> Result<Result<PathBuf, E>, CheckError> {
         // Others wait: they need the same object.
-        let _lock = self.harness.lock().unwrap_or_else(PoisonError::into_inner);
-        let kept = self.path().join(HARNESS);
+        let _lock = self.harness[of_harness].lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.object(of_harness);
         if kept.exists() {
             return Ok(Ok(kept));
         }

@@ -28,7 +28,16 @@ const FAR: i32 = 1000;
 /// As many calls show every misreading far beyond chance.
 const CALLS: u64 = 4000;
 /// As many calls show what 360 degrees leave: ten standard deviations.
-const CALLS_AROUND: u64 = 1_500_000;
+pub(crate) const CALLS_AROUND: u64 = 1_500_000;
+
+/// How much the long steps do.
+#[derive(Clone, Copy, Debug)]
+pub struct Counts {
+    /// The photons of the whole run.
+    pub photons: u64,
+    /// The directions around an axis.
+    pub around: u64,
+}
 
 /// One step of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,8 +144,9 @@ pub fn steps() -> Vec<PlanStep> {
     steps
 }
 
-/// The file for the harness, with `photons` photons in the whole run.
-pub fn file(photons: u64) -> String {
+/// The file for the harness.
+pub fn file(counts: Counts) -> String {
+    let Counts { photons, around } = counts;
     let mut file = String::new();
     for (scenes, step) in steps().into_iter().enumerate() {
         add_scene(step, &mut file);
@@ -148,9 +158,9 @@ pub fn file(photons: u64) -> String {
                 let numbers = numbers.as_flattened().iter().map(u32::to_string);
                 format!("emit {scenes} 1 6 {}", numbers.collect::<Vec<_>>().join(" "))
             }
-            PlanStep::AroundLight => format!("around-light {scenes} {CALLS_AROUND}"),
+            PlanStep::AroundLight => format!("around-light {scenes} {around}"),
             PlanStep::Whole => format!("whole {scenes} {photons}"),
-            _ => trace(step, scenes),
+            _ => trace(step, scenes, around),
         };
         line(&mut file, &what);
     }
@@ -192,7 +202,7 @@ pub fn rays(step: PlanStep) -> Vec<[Vec3; 2]> {
         .collect()
 }
 
-fn trace(step: PlanStep, scene: usize) -> String {
+fn trace(step: PlanStep, scene: usize, around: u64) -> String {
     let (calls, path, remaining) = match step {
         PlanStep::StoreFirst => (16, 1, FAR),
         PlanStep::StoreLater(path) => (16, path, FAR),
@@ -204,7 +214,7 @@ fn trace(step: PlanStep, scene: usize) -> String {
         // Half of the paths end at every hit, unless there is no roulette.
         PlanStep::GrayCube => (2000, 1, 50),
         PlanStep::Floor => (2 * CALLS, 1, FAR),
-        PlanStep::Around => (CALLS_AROUND, 1, FAR),
+        PlanStep::Around => (around, 1, FAR),
         _ => (CALLS, 1, FAR),
     };
     let what = if step == PlanStep::Around { "around" } else { "trace" };

@@ -6,6 +6,7 @@ use photon_list::reader::PhotonList;
 use serde::Serialize;
 
 use crate::diagnostics::BuildError;
+use crate::find::CppSubmission;
 use crate::sections::SectionVerdict;
 
 /// Whether the submission builds.
@@ -158,4 +159,19 @@ pub struct CheckReport {
     /// The photon list of the whole run.
     #[serde(skip)]
     pub list: Option<PhotonList>,
+}
+
+impl CheckReport {
+    /// On a submission of which nothing is known yet, with so many photons in the whole run.
+    pub(crate) fn new(submission: &CppSubmission, photons: u64) -> Self {
+        Self {
+            submission: submission.name.clone(),
+            builds: Builds::Yes,
+            sections: Vec::new(),
+            whole: Whole { photons, ..Whole::default() },
+            remarks: submission.notes.clone(),
+            seconds: [0.0; 2],
+            list: None,
+        }
+    }
 }

@@ -12,7 +12,7 @@ use crate::error::CheckError;
 use crate::events::Log;
 use crate::kit::write;
 use crate::messages::Reader;
-use crate::plan::{self, PlanStep};
+use crate::plan::{self, Counts, PlanStep};
 use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome, on_clock};
 
 /// The processor time of a step with a small scene. It needs a thousandth of it.
@@ -150,12 +150,12 @@ impl Observed {
 pub fn run(
     harness: &Path,
     folder: &Path,
-    photons: u64,
+    counts: Counts,
     time: Duration,
 ) -> Result<Observed, CheckError> {
     let start = Instant::now();
     let plan_path = folder.join("plan.txt");
-    write(&plan_path, plan::file(photons).as_bytes())?;
+    write(&plan_path, plan::file(counts).as_bytes())?;
     let steps = plan::steps();
     let whole = number_of_whole();
     let mut observed = Observed { deaths: vec![None; steps.len()], ..Observed::default() };

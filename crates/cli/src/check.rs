@@ -156,7 +156,7 @@ pub fn run(arguments: &CheckArgs) -> Result<u8, CliError> {
     let settings = CheckSettings {
         time: Duration::from_secs(arguments.timeout),
         // A class keeps all cores busy by itself.
-        jobs: if paths.len() == 1 { 3 } else { 1 },
+        jobs: if paths.len() == 1 { 4 } else { 1 },
         ..CheckSettings::default()
     };
     let grading = grading::submission::Settings {

@@ -6,21 +6,7 @@
 // carries out the steps of the file PLAN from number FIRST to before END. A step on a small scene
 // has SECONDS of processor time, the whole run has WHOLE; SIGPROF ends what takes longer.
 //
-// A plan has one item a line:
-//
-//   scene                                   begins the next scene, numbered from 0
-//   object NAME r g b                       an object with its diffuse response
-//   triangle 9 floats, 3 floats             corners and normal; belongs to the object before
-//   light x y z r g b                       a point light: the student's PointLight
-//   emit SCENE CALLS COUNT numbers          a step: asks light 0 for rays
-//   trace SCENE CALLS PATH REMAINING RAYS 6 floats each COUNT numbers
-//                                           a step: traces photons along these rays, in turn
-//   around-light SCENE CALLS                a step: counts the directions of these rays
-//   around SCENE CALLS PATH ... numbers     as trace, but counts the directions of second rays
-//   whole SCENE PHOTONS                     a step: the whole run
-//
-// COUNT numbers, in units of 2^-24, are drawn before the reference's own. This file is compiled
-// with -fno-access-control, since TracePhoton is private.
+// This file is compiled with -fno-access-control, since TracePhoton is private.
 
 #include <algorithm>
 #include <cstdio>
@@ -34,6 +20,7 @@
 #include "common/Scene/Lights/Point/PointLight.h"
 #include "common/Scene/Scene.h"
 
+#include "plan.hpp"
 #include "recorder.hpp"
 
 namespace {
@@ -56,16 +43,6 @@ public:
 
 private:
     mutable std::uint64_t next;
-};
-
-struct Step {
-    enum Kind { emit, trace, around_light, around, whole } kind;
-    std::size_t scene;
-    std::uint64_t calls;
-    std::size_t path;
-    int remaining;
-    std::vector<Ray> rays;
-    std::vector<std::uint32_t> numbers;
 };
 
 // Thrown where InitializeRenderer asks for more rays than it was told to.
@@ -94,92 +71,6 @@ public:
 private:
     const Step& step;
 };
-
-struct LightData {
-    glm::vec3 position, color;
-};
-
-struct Plan {
-    std::vector<std::shared_ptr<Scene>> scenes;
-    std::vector<std::vector<LightData>> lights;
-    std::vector<Step> steps;
-};
-
-glm::vec3 read_vector(std::istream& in) {
-    glm::vec3 v;
-    in >> v.x >> v.y >> v.z;
-    return v;
-}
-
-bool read_plan(const char* path, Plan& plan) {
-    const int descriptor = open_plan(path);
-    std::FILE* const file = descriptor >= 0 ? fdopen(descriptor, "r") : nullptr;
-    if (file == nullptr) {
-        return false;
-    }
-    std::vector<char> text(1 << 20);
-    text.resize(std::fread(text.data(), 1, text.size(), file));
-    std::fclose(file);
-    std::istringstream lines(std::string(text.begin(), text.end()));
-    std::string line;
-    MeshObject* object = nullptr;
-    while (std::getline(lines, line)) {
-        std::istringstream in(line);
-        std::string item;
-        in >> item;
-        if (item == "scene") {
-            plan.scenes.push_back(std::make_shared<Scene>());
-            plan.lights.emplace_back();
-        } else if (item == "object") {
-            std::string name;
-            in >> name;
-            object = plan.scenes.back()->AddObject(name, read_vector(in));
-        } else if (item == "triangle") {
-            glm::vec3 corners[3];
-            for (glm::vec3& corner : corners) {
-                corner = read_vector(in);
-            }
-            plan.scenes.back()->AddTriangle(object, corners, read_vector(in));
-        } else if (item == "light") {
-            LightData light;
-            light.position = read_vector(in);
-            light.color = read_vector(in);
-            plan.lights.back().push_back(light);
-        } else {
-            Step step = Step();
-            in >> step.scene >> step.calls;
-            step.kind = item == "emit"           ? Step::emit
-                        : item == "trace"        ? Step::trace
-                        : item == "around-light" ? Step::around_light
-                        : item == "around"       ? Step::around
-                                                 : Step::whole;
-            if (step.kind == Step::trace || step.kind == Step::around) {
-                std::size_t rays = 0;
-                in >> step.path >> step.remaining >> rays;
-                for (std::size_t i = 0; i < rays; ++i) {
-                    const glm::vec3 from = read_vector(in);
-                    Ray ray;
-                    ray.SetRayPosition(from);
-                    ray.SetRayDirection(read_vector(in));
-                    step.rays.push_back(ray);
-                }
-            }
-            if (step.kind != Step::whole && step.kind != Step::around_light) {
-                std::size_t count = 0;
-                in >> count;
-                step.numbers.resize(count);
-                for (std::uint32_t& number : step.numbers) {
-                    in >> number;
-                }
-            }
-            plan.steps.push_back(step);
-        }
-        if (!in) {
-            return false;
-        }
-    }
-    return true;
-}
 
 // The rest runs the student's code. An exception ends a step, not the program.
 template <class Call>

@@ -87,3 +87,62 @@ void Scene::AddTriangle(const MeshObject* object, const glm::vec3 (&corners)[3],
     }
     triangles.push_back(triangle);
 }
+
+void Scene::PerformRaySpecularReflection(Ray& output, const Ray& input, const glm::vec3& point,
+                                         float towardsNormal,
+                                         const IntersectionState& state) const {
+    const glm::vec3 normal = state.ComputeNormal();
+    output.SetRayPosition(point + LARGE_EPSILON * normal);
+    output.SetRayDirection(input.GetRayDirection() - 2.f * towardsNormal * normal);
+}
+
+void Scene::PerformRayRefraction(Ray& output, const Ray& input, const glm::vec3& point,
+                                 float towardsNormal, const IntersectionState& state,
+                                 float& targetIOR) const {
+    const glm::vec3 normal = state.ComputeNormal();
+    output.SetRayPosition(point + (towardsNormal < 0.f ? -LARGE_EPSILON : LARGE_EPSILON) * normal);
+    output.SetRayDirection(input.RefractRay(normal, state.currentIOR, targetIOR));
+}
+
+glm::vec3 IntersectionState::ComputeNormal() const {
+    glm::vec3 blended(0.f);
+    for (size_t i = 0; i < primitiveIntersectionWeights.size(); ++i) {
+        blended += primitiveIntersectionWeights[i] *
+                   intersectedPrimitive->GetVertexNormal(static_cast<int>(i));
+    }
+    return glm::normalize(blended);
+}
+
+glm::vec3 Ray::RefractRay(const glm::vec3& normal, float fromIOR, float& targetIOR) const {
+    const glm::vec3 direction = GetRayDirection();
+    const bool leaves = glm::dot(direction, normal) > 0.f;
+    if (leaves) {
+        targetIOR = 1.f;
+    }
+    const glm::vec3 bent = glm::refract(direction, leaves ? -normal : normal, fromIOR / targetIOR);
+    return glm::length(bent) > 0.f ? bent : direction;
+}
+
+void SceneObject::Rotate(const glm::vec3& axis, float radians) {
+    rotation = glm::angleAxis(radians, glm::normalize(axis)) * rotation;
+}
+
+glm::mat4 SceneObject::GetObjectToWorldMatrix() const {
+    return glm::translate(glm::mat4(1.f), glm::vec3(position)) * glm::mat4_cast(rotation) *
+           glm::scale(glm::mat4(1.f), glm::vec3(scale));
+}
+glm::mat4 SceneObject::GetWorldToObjectMatrix() const {
+    return glm::inverse(GetObjectToWorldMatrix());
+}
+
+namespace {
+
+glm::vec4 turned(const glm::quat& rotation, float x, float y, float z) {
+    return glm::vec4(rotation * glm::vec3(x, y, z), 0.f);
+}
+
+} // namespace
+
+glm::vec4 SceneObject::GetForwardDirection() const { return turned(rotation, 0.f, 0.f, -1.f); }
+glm::vec4 SceneObject::GetUpDirection() const { return turned(rotation, 0.f, 1.f, 0.f); }
+glm::vec4 SceneObject::GetRightDirection() const { return turned(rotation, 1.f, 0.f, 0.f); }

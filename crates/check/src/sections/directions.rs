@@ -106,16 +106,19 @@ impl Directions {
             tried().map(|(_, matrix)| self.seen_from(&self.floor, *matrix)).collect();
         // The cosine comes first: what follows it in any frame follows nothing else.
         let laws = std::iter::once(None).chain(LAWS.iter().map(Some));
+        let even: Vec<_> = (0..seen.len())
+            .filter(|number| {
+                let [_, around, above] = &seen[*number];
+                above[0] > 0.999 && is_uniform(around)
+            })
+            .collect();
         let found = laws.into_iter().find_map(|law| {
-            let due = law.map(AngleLaw::squared_sines);
-            let number = seen.iter().position(|[sines, around, above]| {
-                let follows = match &due {
-                    Some(due) => are_alike(sines, due),
-                    None => is_uniform(sines),
-                };
-                above[0] > 0.999 && follows && is_uniform(around)
-            })?;
-            Some((number, law))
+            let due = law.filter(|_| !even.is_empty()).map(AngleLaw::squared_sines);
+            let follows = |number: &&usize| match &due {
+                Some(due) => are_alike(&seen[**number][0], due),
+                None => is_uniform(&seen[**number][0]),
+            };
+            Some((*even.iter().find(follows)?, law))
         });
         if let Some((number, law)) = found {
             self.frame_of_floor = tried().nth(number).map(|(frame, _)| *frame);

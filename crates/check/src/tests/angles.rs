@@ -2,52 +2,19 @@
 
 use variants::section::Section;
 
-use super::{faults, report, sections_text};
-use crate::report::{Builds, CheckReport};
-
-/// Degrees go around 57 times, which looks even: only the numbers drawn tell.
-#[test]
-fn angles_in_degrees_are_told() {
-    let loop_begins = "do {";
-    let polar = "z = 2.f * ((float)rand() / RAND_MAX) - 1.f;
-    sum = 360.f * ((float)rand() / RAND_MAX);
-    x = std::sqrt(1.f - z * z) * std::cos(sum);
-    y = std::sqrt(1.f - z * z) * std::sin(sum);
-    ray.SetRayPosition(glm::vec3(GetPosition()));
-    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
-    return;
-    do {";
-    let Some(report) = report(&[(THETA, "360 * u2"), (loop_begins, polar)]) else { return };
-    let expected = [
-        (Section::PhotonEmission, Some("angle-in-degrees")),
-        (Section::HemisphereSampling, Some("angle-in-degrees")),
-    ];
-    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
-}
+use super::cases::{Change, Faults, program, tells, wrong};
+use crate::plan::CALLS_AROUND;
 
 const THETA: &str = "2.f * 3.14159265f * u2";
-
-/// The report on `one_function` with numbers from `draw`, and one more change.
-fn report_with_random(draw: &str, change: (&str, &str)) -> Option<CheckReport> {
-    let [light, renderer] = [
-        "#include \"common/Scene/Lights/Point/PointLight.h\"",
-        "#include \"common/Rendering/Renderer/Photon/PhotonMappingRenderer.h\"",
-    ];
-    let define = |include: &str| {
-        format!(
-            "{include}\n#include <cmath>\n#include <cstdio>\n#include <random>\n\
-             static float Draw() {{ {draw} }}\n"
-        )
-    };
-    let report = report(&[
-        (light, &define(light)),
-        (renderer, &define(renderer)),
-        ("(float)rand() / RAND_MAX", "Draw()"),
-        change,
-    ])?;
-    assert_eq!(report.builds, Builds::Yes);
-    Some(report)
-}
+const LOOP: &str = "do {";
+const NUMBER: &str = "(float)rand() / RAND_MAX";
+const IN_DEGREES: Faults = &[(Section::HemisphereSampling, Some("angle-in-degrees"))];
+/// As many directions show what 180 degrees leave: twelve standard deviations.
+const FOR_180: u64 = 500_000;
+/// As many show a gap of a hundredth of the circle: twice the limit.
+const FOR_GAP: u64 = 200_000;
+const LOOKS_LIKE_360: &str = "theta looks like degrees, 360 times";
+const LOOKS_LIKE_180: &str = "theta looks like degrees, 180 times";
 
 /// One engine for all calls.
 const STATIC_ENGINE: &str = "static std::mt19937 engine(std::random_device{}());
@@ -69,23 +36,104 @@ const PRINTING: &str = "std::puts(\"a line for every number\");
 const DEVICE: &str = "std::random_device device;
     return std::generate_canonical<double, 53>(device);";
 
+/// Directions of the light in polar coordinates, with phi in degrees.
+const AROUND_Z: &str = "z = 2.f * ((float)rand() / RAND_MAX) - 1.f;
+    sum = 360.f * ((float)rand() / RAND_MAX);
+    x = std::sqrt(1.f - z * z) * std::cos(sum);
+    y = std::sqrt(1.f - z * z) * std::sin(sum);
+    ray.SetRayPosition(glm::vec3(GetPosition()));
+    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
+    return;
+    do {";
+/// phi around an axis other than z.
+const AROUND_Y: &str = "y = 2.f * (float)rand() / RAND_MAX - 1.f;
+    sum = 360.f * (float)rand() / RAND_MAX;
+    z = std::sqrt(1.f - y * y) * std::cos(sum);
+    x = std::sqrt(1.f - y * y) * std::sin(sum);
+    ray.SetRayPosition(glm::vec3(GetPosition()));
+    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
+    return;
+    do {";
+
+/// Degrees go around 57 times, which looks even: only the numbers drawn tell.
+#[test]
+fn angles_from_known_numbers_are_told() {
+    let reports = tells(&[
+        (
+            &[(THETA, "360 * u2"), (LOOP, AROUND_Z)],
+            &[
+                (Section::PhotonEmission, Some("angle-in-degrees")),
+                (Section::HemisphereSampling, Some("angle-in-degrees")),
+            ],
+            "",
+        ),
+        // With pi = 3.14, no photon lands where anyone could see it.
+        (&[("3.14159265f", "3.14f")], &[], ""),
+    ]);
+    let Some(report) = reports.last() else { return };
+    let remarks = &report.sections[3].remarks;
+    assert!(remarks.iter().any(|remark| remark.contains("digits of pi")), "{remarks:?}");
+}
+
 /// The numbers of an engine are unknown: only millions of directions tell.
 #[test]
-fn angles_in_degrees_are_told_whatever_draws_them() {
-    let cases = [
-        (STATIC_ENGINE, "360 * u2", "360"),
-        (STATIC_ENGINE, "180.f * u2", "180"),
-        (NEW_ENGINE, "360 * u2", "360"),
-        (NEW_ENGINE, "180 * u2", "180"),
-        (DEVICE, "-360.0 * u2", "360"),
-        (PRINTING, "360 * u2", "360"),
+fn angles_are_told_whatever_draws_them() {
+    let cases: [(&str, Change, u64, Faults, &str); 15] = [
+        (STATIC_ENGINE, (THETA, "360 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        (STATIC_ENGINE, (THETA, "180.f * u2"), FOR_180, IN_DEGREES, LOOKS_LIKE_180),
+        (NEW_ENGINE, (THETA, "360 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        (NEW_ENGINE, (THETA, "180 * u2"), FOR_180, IN_DEGREES, LOOKS_LIKE_180),
+        (DEVICE, (THETA, "-360.0 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        (PRINTING, (THETA, "360 * u2"), CALLS_AROUND, IN_DEGREES, LOOKS_LIKE_360),
+        // The light's, beside the right theta.
+        (
+            STATIC_ENGINE,
+            (LOOP, AROUND_Y),
+            CALLS_AROUND,
+            &[(Section::PhotonEmission, Some("angle-in-degrees"))],
+            "looks like degrees",
+        ),
+        // A gap too narrow for a few thousand directions.
+        (
+            STATIC_ENGINE,
+            (THETA, "2 * 3.1f * u2"),
+            FOR_GAP,
+            &[(Section::HemisphereSampling, Some("not-even-around"))],
+            "",
+        ),
+        (STATIC_ENGINE, (THETA, THETA), FOR_GAP, &[], ""),
+        (STATIC_ENGINE, (THETA, "2 * 3.14 * u2"), FOR_GAP, &[], ""),
+        (NEW_ENGINE, (THETA, "2 * 3.14 * u2"), FOR_GAP, &[], ""),
+        (NEW_LARGE_ENGINE, (THETA, "2 * M_PI * u2"), FOR_GAP, &[], ""),
+        (DEVICE, (THETA, "2 * 3.14 * u2"), FOR_GAP, &[], ""),
+        (
+            "static std::mt19937 engine; return engine() % 100 / 100.f;",
+            (THETA, "2 * M_PI * u2"),
+            CALLS_AROUND,
+            &[],
+            "",
+        ),
+        ("return rand() % 100 / 100.f;", (THETA, "2 * M_PI * u2"), FOR_GAP, &[], ""),
     ];
-    for (draw, theta, words) in cases {
-        let Some(report) = report_with_random(draw, (THETA, theta)) else { return };
-        let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
-        assert_eq!(faults(&report), expected, "{draw}: {}", sections_text(&report));
-        let found = &report.sections[3].faults[0].found;
-        assert!(found.contains(words) && found.contains("looks like degrees"), "{found}");
+    let [light, renderer] = [
+        "#include \"common/Scene/Lights/Point/PointLight.h\"",
+        "#include \"common/Rendering/Renderer/Photon/PhotonMappingRenderer.h\"",
+    ];
+    let define = |include: &str, draw: &str| {
+        format!(
+            "{include}\n#include <cmath>\n#include <cstdio>\n#include <random>\n\
+             static float Draw() {{ {draw} }}\n"
+        )
+    };
+    let defined = cases.map(|(draw, ..)| [define(light, draw), define(renderer, draw)]);
+    let changes = std::array::from_fn::<[Change; 4], 15, _>(|case| {
+        let [of_light, of_renderer] = &defined[case];
+        [(light, of_light), (renderer, of_renderer), cases[case].1, (NUMBER, "Draw()")]
+    });
+    let Some(program) = program(&changes) else { return };
+    for (case, (draw, change, around, expected, words)) in cases.into_iter().enumerate() {
+        let wrong = wrong(&program.report(case, around), expected, words);
+        assert_eq!(wrong, None, "{draw}: {change:?}");
     }
 }
 
@@ -102,60 +150,8 @@ fn angles_in_degrees_are_told_of_engines_made_in_every_call() {
         ("if ((float)rand() / RAND_MAX", "if (uniform(engine)"),
         ("u1 = (float)rand() / RAND_MAX", "u1 = uniform(engine)"),
         ("u2 = (float)rand() / RAND_MAX", "u2 = uniform(engine)"),
-        ("2.f * 3.14159265f * u2", "180 * u2"),
+        (THETA, "180 * u2"),
     ];
-    let Some(report) = report(&changes) else { return };
-    let expected = [(Section::HemisphereSampling, Some("angle-in-degrees"))];
-    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
-}
-
-/// phi around an axis other than z, beside the right theta.
-#[test]
-fn angles_of_the_light_in_degrees_are_told_whatever_draws_them() {
-    let polar = "y = 2.f * (float)rand() / RAND_MAX - 1.f;
-    sum = 360.f * (float)rand() / RAND_MAX;
-    z = std::sqrt(1.f - y * y) * std::cos(sum);
-    x = std::sqrt(1.f - y * y) * std::sin(sum);
-    ray.SetRayPosition(glm::vec3(GetPosition()));
-    ray.SetRayDirection(glm::normalize(glm::vec3(x, y, z)));
-    return;
-    do {";
-    let polar = polar.replace("(float)rand() / RAND_MAX", "Draw()");
-    let Some(report) = report_with_random(STATIC_ENGINE, ("do {", &polar)) else { return };
-    let expected = [(Section::PhotonEmission, Some("angle-in-degrees"))];
-    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
-}
-
-#[test]
-fn angles_in_radians_are_right_whatever_draws_them() {
-    let cases = [
-        (STATIC_ENGINE, "2.f * 3.14159265f * u2"),
-        (STATIC_ENGINE, "2 * 3.14 * u2"),
-        (NEW_ENGINE, "2 * 3.14 * u2"),
-        (NEW_LARGE_ENGINE, "2 * M_PI * u2"),
-        (DEVICE, "2 * 3.14 * u2"),
-        ("static std::mt19937 engine; return engine() % 100 / 100.f;", "2 * M_PI * u2"),
-        ("return rand() % 100 / 100.f;", "2 * M_PI * u2"),
-    ];
-    for (draw, theta) in cases {
-        let Some(report) = report_with_random(draw, (THETA, theta)) else { return };
-        assert_eq!(faults(&report), [], "{draw} {theta}: {}", sections_text(&report));
-    }
-}
-
-/// A gap too narrow for a few thousand directions.
-#[test]
-fn a_gap_around_the_normal_is_told_whatever_draws_the_numbers() {
-    let Some(report) = report_with_random(STATIC_ENGINE, (THETA, "2 * 3.1f * u2")) else { return };
-    let expected = [(Section::HemisphereSampling, Some("not-even-around"))];
-    assert_eq!(faults(&report), expected, "{}", sections_text(&report));
-}
-
-/// With pi = 3.14, no photon lands where anyone could see it.
-#[test]
-fn a_short_pi_costs_nothing() {
-    let Some(report) = report(&[("3.14159265f", "3.14f")]) else { return };
-    assert_eq!(faults(&report), [], "{}", sections_text(&report));
-    let remarks = &report.sections[3].remarks;
-    assert!(remarks.iter().any(|remark| remark.contains("digits of pi")), "{remarks:?}");
+    let Some(program) = program(&[changes]) else { return };
+    assert_eq!(wrong(&program.report(0, FOR_180), IN_DEGREES, LOOKS_LIKE_180), None);
 }

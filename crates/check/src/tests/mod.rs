@@ -2,6 +2,7 @@
 
 mod angles;
 mod building;
+mod cases;
 mod causes;
 mod hostile;
 mod mistakes;
@@ -12,14 +13,17 @@ mod styles_of_state;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use variants::section::Section;
 
 use crate::checking::{CheckSettings, check};
 use crate::find::CppSubmission;
-use crate::kit::Kit;
+use crate::kit::{Kit, write};
 use crate::report::CheckReport;
-use crate::sections::SectionVerdict;
+use crate::sections::{SectionVerdict, Status};
+
+use cases::{Change, changed};
 
 /// The kit, made ready once for all tests and kept for the next run of them; nothing, with a
 /// message, where there is no compiler or no glm. In CI there must be both.
@@ -44,11 +48,15 @@ fn target() -> Option<PathBuf> {
     Some(std::env::current_exe().ok()?.ancestors().nth(3)?.join("tmp"))
 }
 
-/// `program` under another name, by which it chooses what it does.
-fn named(program: &Path, name: &str) -> PathBuf {
-    let named = program.with_file_name(name);
-    fs::copy(program, &named).expect("can be copied");
-    named
+/// Does `work` on all of `items`, two at a time: some only wait.
+fn two_at_a_time<T: Sync>(items: &[T], work: impl Fn(&T) + Sync) {
+    let next = AtomicUsize::new(0);
+    let work_on = || {
+        while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+            work(item);
+        }
+    };
+    std::thread::scope(|scope| (0..2).for_each(|_| drop(scope.spawn(work_on))));
 }
 
 /// The folder of what the tests hand in.
@@ -66,9 +74,7 @@ fn report_on(files: &[(&str, Vec<u8>)]) -> Option<CheckReport> {
     let kit = kit()?;
     let folder = tempfile::tempdir().expect("a folder");
     for (path, content) in files {
-        let path = folder.path().join(path);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("can be made");
-        fs::write(path, content).expect("can be written");
+        write(&folder.path().join(path), content).expect("can be written");
     }
     let submission = CppSubmission::find(folder.path()).expect("a submission");
     let settings = CheckSettings { photons: 2000, ..CheckSettings::default() };
@@ -76,24 +82,25 @@ fn report_on(files: &[(&str, Vec<u8>)]) -> Option<CheckReport> {
 }
 
 /// The report on `one_function`, with each pair's first text replaced by its second.
-fn report(changes: &[(&str, &str)]) -> Option<CheckReport> {
-    let mut unused = changes.to_vec();
-    let files = ["PointLight.cpp", "PhotonMappingRenderer.cpp"].map(|name| {
-        let mut text = read(name);
-        unused.retain(|(from, _)| !text.contains(from));
-        for (from, to) in changes {
-            text = text.replace(from, to);
-        }
-        (name, text.into_bytes())
-    });
-    assert!(unused.is_empty(), "{unused:?} is nowhere");
-    report_on(&files)
+fn report(changes: &[Change]) -> Option<CheckReport> {
+    report_on(&changed(changes).map(|(name, text)| (name, text.into_bytes())))
 }
 
 /// What is said of the sections, for messages of tests.
 fn sections_text(report: &CheckReport) -> String {
     let line = |verdict: &SectionVerdict| format!("{verdict:#?}");
     report.sections.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// A letter for each section.
+fn statuses(report: &CheckReport) -> String {
+    let letter = |verdict: &SectionVerdict| match verdict.status {
+        Status::Right => '+',
+        Status::RightUnderAnotherReading => '~',
+        Status::Wrong => 'x',
+        Status::NotReached => '?',
+    };
+    report.sections.iter().map(letter).collect()
 }
 
 fn faults(report: &CheckReport) -> Vec<(Section, Option<&'static str>)> {

@@ -5,17 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use super::{handed_in, kit, named};
-use crate::find::CppSubmission;
-use crate::run::run;
+use super::cases::{FEW, Program};
+use super::handed_in;
+use crate::plan::CALLS_AROUND;
 use crate::sections::{SectionVerdict, Status, judge};
-use crate::workshop::Workshop;
 use variants::section::Section;
 
 const TIME: Duration = Duration::from_secs(60);
-/// The time of a probe, where it need not count a million directions.
-const LITTLE: Duration = Duration::from_secs(1);
-/// The mistake for which it must.
+/// The mistake for which a million directions must be counted.
 const DEGREES: u8 = 21;
 
 /// The mistakes, by their numbers in `styles/mistake.h`, with the section and name of the fault.
@@ -53,7 +50,6 @@ fn faults(verdicts: &[SectionVerdict]) -> Vec<(Section, &'static str)> {
 
 /// What is wrong with the verdicts on all mistakes in the style `name`.
 fn try_style(name: &str) {
-    let Some(kit) = kit() else { return };
     let styles = handed_in().join("styles");
     let folder = tempfile::tempdir().expect("a folder");
     let copy = |from: &Path| {
@@ -65,15 +61,10 @@ fn try_style(name: &str) {
         let entries = fs::read_dir(from).expect("a folder").map(|entry| entry.expect("one").path());
         entries.filter(|path| path.is_file()).for_each(|path| copy(&path));
     }
-    let submission = CppSubmission::find(folder.path()).expect("a submission");
-    let (light, renderer) = (submission.light.clone(), submission.renderer.clone());
-    let (light, renderer) = (light.expect("a light"), renderer.expect("a renderer"));
-    let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("a workshop");
-    let program = workshop.build(1).expect("a compiler").expect("it compiles");
+    let Some(program) = Program::new(folder.path()) else { return };
     let verdicts = |mistake: u8| {
-        let program = named(&program, &mistake.to_string());
-        let time = if mistake == DEGREES { TIME } else { LITTLE };
-        judge(&run(&program, workshop.path(), 100, time).expect("it runs"))
+        let around = if mistake == DEGREES { CALLS_AROUND } else { FEW };
+        judge(&program.run(&mistake.to_string(), around, TIME))
     };
     let mut wrong = Vec::new();
     for (mistake, section, name) in MISTAKES {

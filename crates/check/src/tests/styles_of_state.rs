@@ -1,12 +1,12 @@
 //! Programs whose `TracePhoton` needs what `GenericPhotonMapGeneration` does before: a flag of its
 //! own, or the loop around it. They are judged by what they do in a run.
 
-use crate::sections::Status;
 use variants::section::Section;
 
-use super::{faults, report, sections_text};
+use super::cases::{Change, FEW, Faults, program, wrong};
+use super::{sections_text, statuses};
 
-type Changes = &'static [(&'static str, &'static str)];
+type Changes = &'static [Change<'static>];
 
 const SCATTER: &str = "    path.push_back('D');
     TracePhoton(photonMap, &scattered, lightIntensity, path, currentIOR, remainingBounces - 1);";
@@ -35,7 +35,7 @@ const STYLES: [(&str, &str, Changes); 5] = [
         "depth > 0",
         &[
             (END, "for (int depth = 0; remainingBounces >= 0; --remainingBounces, ++depth) {\n"),
-            (SCATTER, "*photonRay = scattered;\n}"),
+            (SCATTER, "*photonRay = scattered;\n    }"),
         ],
     ),
     (
@@ -64,48 +64,45 @@ const STYLES: [(&str, &str, Changes); 5] = [
     ),
 ];
 
-#[test]
-fn right_programs_are_right_in_every_style() {
-    for (what, stores, changes) in STYLES {
-        let Some(report) = report(&[changes, &[(STORES, stores)]].concat()) else { return };
-        let statuses: Vec<_> = report.sections.iter().map(|verdict| verdict.status).collect();
-        assert_eq!(statuses, [Status::Right; 5], "{what}: {}", sections_text(&report));
-        assert!(report.whole.is_reference(), "{what}");
-    }
-}
-
-/// The whole run is not the reference's, and still says what is stored.
-#[test]
-fn mistakes_are_told_alone_in_every_style() {
-    let mistakes = [("std::sqrt(u1)", "u1"), (">= pr", "< pr")];
-    let expected = [
-        (Section::PhotonScatteringAbsorption, Some("inverted-roulette")),
-        (Section::HemisphereSampling, Some("no-square-root")),
-    ];
-    for (what, stores, changes) in STYLES {
-        let changes = [changes, &[(STORES, stores)], &mistakes].concat();
-        let Some(report) = report(&changes) else { return };
-        assert_eq!(faults(&report), expected, "{what}: {}", sections_text(&report));
-    }
-}
+/// What is wrong in every style, its condition to store, and what is told.
+const CASES: [(Changes, &str, Faults); 4] = [
+    (&[], "stores", &[]),
+    // The whole run is not the reference's, and still says what is stored.
+    (
+        &[("std::sqrt(u1)", "u1"), (">= pr", "< pr")],
+        "stores",
+        &[
+            (Section::PhotonScatteringAbsorption, Some("inverted-roulette")),
+            (Section::HemisphereSampling, Some("no-square-root")),
+        ],
+    ),
+    (&[], "stores || true", &[(Section::PhotonStorage, Some("direct-stored"))]),
+    (
+        &[],
+        "stores && remainingBounces % 2",
+        &[(Section::PhotonStorage, Some("absorbed-not-stored"))],
+    ),
+];
 
 #[test]
-fn direct_photons_are_told_in_every_style() {
+fn every_style_is_judged_by_what_it_does() {
+    let mut cases = Vec::new();
     for (what, stores, changes) in STYLES {
-        let always = format!("{stores} || true");
-        let Some(report) = report(&[changes, &[(STORES, &always)]].concat()) else { return };
-        let expected = [(Section::PhotonStorage, Some("direct-stored"))];
-        assert_eq!(faults(&report), expected, "{what}: {}", sections_text(&report));
+        for (mistakes, condition, expected) in CASES {
+            let condition = condition.replace("stores", stores);
+            cases.push((what, condition, [changes, mistakes].concat(), expected));
+        }
     }
-}
-
-#[test]
-fn too_few_photons_are_told_in_styles_of_state() {
-    for (what, stores, changes) in [STYLES[0], STYLES[4]] {
-        let fewer = format!("{stores} && remainingBounces % 2");
-        let Some(report) = report(&[changes, &[(STORES, &fewer)]].concat()) else { return };
-        let sections: Vec<_> = faults(&report).iter().map(|(section, _)| *section).collect();
-        assert!(sections.contains(&Section::PhotonStorage), "{what}: {}", sections_text(&report));
+    let changes: Vec<Vec<Change>> = cases
+        .iter()
+        .map(|(_, condition, changes, _)| [changes, &[(STORES, &**condition)][..]].concat())
+        .collect();
+    let Some(program) = program(&changes) else { return };
+    for (case, (what, condition, _, expected)) in cases.iter().enumerate() {
+        let report = program.report(case, FEW);
+        assert_eq!(wrong(&report, expected, ""), None, "{what}: {condition}");
+        let is_right = statuses(&report) == "+++++" && report.whole.is_reference();
+        assert!(is_right || !expected.is_empty(), "{what}: {}", sections_text(&report));
     }
 }
 
@@ -120,6 +117,8 @@ fn an_engine_of_its_own_gives_the_same_photons_in_every_check() {
     let of_renderer = format!("{INCLUDE}\n{draw}");
     let changes =
         [(include, &*of_light), (INCLUDE, &of_renderer), ("(float)rand() / RAND_MAX", "Draw()")];
-    let lists = [(); 2].map(|()| report(&changes).and_then(|report| report.list));
-    assert!(lists[0] == lists[1]);
+    let Some(program) = program(&[changes, changes]) else { return };
+    // As if the second had less time.
+    let lists = [(0, 2 * FEW), (1, FEW)].map(|(case, around)| program.report(case, around).list);
+    assert!(lists[0].is_some() && lists[0] == lists[1]);
 }

@@ -25,14 +25,7 @@ struct IntersectionState {
     std::vector<float> primitiveIntersectionWeights;
 
     // The corners' normals, blended and normalized. It is never turned towards the ray.
-    glm::vec3 ComputeNormal() const {
-        glm::vec3 blended(0.f);
-        for (size_t i = 0; i < primitiveIntersectionWeights.size(); ++i) {
-            blended += primitiveIntersectionWeights[i] *
-                       intersectedPrimitive->GetVertexNormal(static_cast<int>(i));
-        }
-        return glm::normalize(blended);
-    }
+    glm::vec3 ComputeNormal() const;
     glm::vec2 ComputeUV() const { return glm::vec2(0.f); }
     void TestAndCopyLimits(const IntersectionState*) {}
 

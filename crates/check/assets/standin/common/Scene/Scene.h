@@ -1,4 +1,4 @@
-// Stand-in: meshes and lights, and the question what a ray meets. Trace is in harness/scene.cpp.
+// Stand-in: meshes and lights, and the question what a ray meets. Their functions are in harness/scene.cpp.
 #pragma once
 
 #include "common/Intersection/IntersectionState.h"
@@ -16,18 +16,10 @@ public:
     const SceneObject& GetSceneObject(size_t index) const { return *objects.at(index); }
 
     void PerformRaySpecularReflection(Ray& output, const Ray& input, const glm::vec3& point,
-                                      float towardsNormal, const IntersectionState& state) const {
-        const glm::vec3 normal = state.ComputeNormal();
-        output.SetRayPosition(point + LARGE_EPSILON * normal);
-        output.SetRayDirection(input.GetRayDirection() - 2.f * towardsNormal * normal);
-    }
+                                      float towardsNormal, const IntersectionState& state) const;
     void PerformRayRefraction(Ray& output, const Ray& input, const glm::vec3& point,
                               float towardsNormal, const IntersectionState& state,
-                              float& targetIOR) const {
-        const glm::vec3 normal = state.ComputeNormal();
-        output.SetRayPosition(point + (towardsNormal < 0.f ? -LARGE_EPSILON : LARGE_EPSILON) * normal);
-        output.SetRayDirection(input.RefractRay(normal, state.currentIOR, targetIOR));
-    }
+                              float& targetIOR) const;
 
     // Not in the framework: how the harness fills the scene.
     MeshObject* AddObject(const std::string& name, glm::vec3 diffuse);

@@ -26,15 +26,7 @@ public:
 
     // Bends `direction` at a surface by Snell's law; the direction is unchanged where all light is
     // reflected.
-    glm::vec3 RefractRay(const glm::vec3& normal, float fromIOR, float& targetIOR) const {
-        const glm::vec3 direction = GetRayDirection();
-        const bool leaves = glm::dot(direction, normal) > 0.f;
-        if (leaves) {
-            targetIOR = 1.f;
-        }
-        const glm::vec3 bent = glm::refract(direction, leaves ? -normal : normal, fromIOR / targetIOR);
-        return glm::length(bent) > 0.f ? bent : direction;
-    }
+    glm::vec3 RefractRay(const glm::vec3& normal, float fromIOR, float& targetIOR) const;
 
 private:
     glm::vec3 rayDirection;
