@@ -1,5 +1,5 @@
-//! The tests of all sections, in one program: `cargo test` stops after the first program that fails,
-//! and whoever breaks a step wants to see every section.
+//! The tests of all sections, in one program: `cargo test` stops after the first program with a
+//! failure, and whoever breaks a step wants to see every section.
 
 mod bits;
 mod common;

@@ -28,15 +28,3 @@ mod report;
 mod shell;
 mod slurm;
 mod support;
-
-/// A file without its line above would never be compiled.
-#[test]
-fn no_file_of_tests_is_left_out() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
-    let all = include_str!("main.rs");
-    for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
-        let path = entry.path();
-        let name = path.file_stem().expect("a name").to_string_lossy();
-        assert!(name == "main" || all.contains(&format!("\nmod {name};")), "{}", path.display());
-    }
-}

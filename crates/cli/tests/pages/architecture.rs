@@ -65,6 +65,7 @@ fn no_type_name_stands_for_two_things() {
     let mut places: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (path, text) in project_files(&[".rs"]) {
         let is_library = path.starts_with("src/") || path.contains("/src/");
+        let is_library = is_library && !path.contains("/tests/");
         for line in text.lines().filter(|_| is_library) {
             let declaration =
                 line.trim_start_matches("pub(crate) ").trim_start_matches("pub(super) ");
@@ -81,4 +82,41 @@ fn no_type_name_stands_for_two_things() {
     assert!(places.contains_key("PhotonMappingRenderer"), "the port was not read");
     places.retain(|_, paths| paths.len() > 1);
     assert_eq!(places, BTreeMap::new());
+}
+
+/// A file of tests without a line in its program, or a test in a library that cargo does not test,
+/// would never run.
+#[test]
+fn no_test_is_left_out() {
+    let manifests = project_files(&["Cargo.toml"]);
+    let all = project_files(&[".rs"]);
+    let mut programs = 0;
+    for (manifest, text) in manifests {
+        let folder = manifest.strip_suffix("Cargo.toml").expect("its end");
+        let below = |part: &str| {
+            let start = format!("{folder}{part}/");
+            let files = all.iter().filter_map(move |(path, text)| {
+                Some((path.strip_prefix(&start)?.to_owned(), text.clone()))
+            });
+            files.collect::<Vec<_>>()
+        };
+        if text.contains("\ntest = false") {
+            let is_test = |(_, text): &(String, String)| text.contains("#[test]");
+            let tests = below("src").into_iter().find(is_test).map(|(path, _)| path);
+            assert_eq!(tests, None, "{manifest}");
+        }
+        if text.contains("\nautotests = false") {
+            programs += 1;
+            let tests = below("tests");
+            let files = tests.iter().filter(|(path, _)| !path.contains('/'));
+            for (path, _) in files {
+                let name = path.strip_suffix(".rs").expect("its end");
+                let lines = [format!("\nmod {name};"), format!("\nname = \"{name}\"")];
+                let is_main = name == "main" || text.contains(&lines[1]);
+                let is_part = tests.iter().any(|(_, text)| text.contains(&lines[0]));
+                assert!(is_main || is_part, "{folder}tests/{path}");
+            }
+        }
+    }
+    assert!(programs > 3, "{programs}");
 }
