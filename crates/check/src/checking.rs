@@ -14,7 +14,7 @@ use crate::error::CheckError;
 use crate::events::Notice;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
 use crate::kit::Kit;
-use crate::plan::{CALLS_AROUND, Counts, PlanStep};
+use crate::plan::{CALLS_AROUND, PlanCounts, PlanStep};
 use crate::report::{Builds, CheckReport};
 use crate::run::{Observed, run};
 use crate::sections;
@@ -72,7 +72,7 @@ pub fn check(
             return Ok(report);
         }
     };
-    let counts = Counts { photons: settings.photons, around: CALLS_AROUND };
+    let counts = PlanCounts { photons: settings.photons, around: CALLS_AROUND };
     let observed = run(&program, workshop.path(), counts, settings.time)?;
     report.seconds[1] = observed.seconds;
     if let Some(death) = &observed.before_any {

@@ -32,7 +32,7 @@ pub(crate) const CALLS_AROUND: u64 = 1_500_000;
 
 /// How much the long steps do.
 #[derive(Clone, Copy, Debug)]
-pub struct Counts {
+pub struct PlanCounts {
     /// The photons of the whole run.
     pub photons: u64,
     /// The directions around an axis.
@@ -145,8 +145,8 @@ pub fn steps() -> Vec<PlanStep> {
 }
 
 /// The file for the harness.
-pub fn file(counts: Counts) -> String {
-    let Counts { photons, around } = counts;
+pub fn file(counts: PlanCounts) -> String {
+    let PlanCounts { photons, around } = counts;
     let mut file = String::new();
     for (scenes, step) in steps().into_iter().enumerate() {
         add_scene(step, &mut file);

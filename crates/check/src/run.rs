@@ -12,7 +12,7 @@ use crate::error::CheckError;
 use crate::events::Log;
 use crate::kit::write;
 use crate::messages::Reader;
-use crate::plan::{self, Counts, PlanStep};
+use crate::plan::{self, PlanCounts, PlanStep};
 use crate::sandbox::{Exit, Limits, MOST_BYTES, Program, RunOutcome, on_clock};
 
 /// The processor time of a step with a small scene. It needs a thousandth of it.
@@ -150,7 +150,7 @@ impl Observed {
 pub fn run(
     harness: &Path,
     folder: &Path,
-    counts: Counts,
+    counts: PlanCounts,
     time: Duration,
 ) -> Result<Observed, CheckError> {
     let start = Instant::now();

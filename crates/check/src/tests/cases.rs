@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::{faults, handed_in, kit, read, sections_text};
 use crate::checking::add_verdicts;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
-use crate::plan::Counts;
+use crate::plan::PlanCounts;
 use crate::report::CheckReport;
 use crate::run::{Observed, run};
 use crate::workshop::Workshop;
@@ -48,7 +48,7 @@ impl Program {
         fs::create_dir_all(&folder).expect("can be made");
         // A copy could still be open for writing where another test starts a program.
         fs::hard_link(&self.path, folder.join(name)).expect("can be linked");
-        let counts = Counts { photons: PHOTONS, around };
+        let counts = PlanCounts { photons: PHOTONS, around };
         run(&folder.join(name), &folder, counts, time).expect("it runs")
     }
 
