@@ -76,13 +76,31 @@ struct Outcome {
     passed: BTreeSet<String>,
 }
 
-/// Runs Cargo in the edition. The libraries are built once for all runs.
+/// Builds the edition as this project is built, so that the libraries need not be built again.
+fn take_profiles_of_the_project(starter: &Path) {
+    let own = starter.join("Cargo.toml");
+    let text = fs::read_to_string(&own).expect("the edition has a manifest");
+    let project = port("Cargo.toml");
+    let parts = |text| str::split_once(text, "[profile.").expect("it has profiles");
+    let text = format!("{}[workspace]\n\n[profile.{}", parts(&text).0, parts(&project).1);
+    fs::write(&own, text).expect("it can be written");
+}
+
+/// Runs Cargo in the edition. What it builds it keeps where the project's own build is; settings
+/// that nothing there has keep it apart from the project's package of the same name.
 fn cargo(starter: &Path, arguments: &[&str], written: usize) -> Output {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("student-target");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     Command::new(env!("CARGO"))
         .args(arguments)
+        .arg("--offline")
+        .args(
+            ["opt-level=1", "codegen-units=16"]
+                .map(|setting| format!("--config=profile.test.package.photon-mapping.{setting}")),
+        )
         .current_dir(starter)
-        .env("CARGO_TARGET_DIR", target)
+        .env("CARGO_INCREMENTAL", "1")
+        .env("CARGO_TARGET_DIR", folder.join("student-target"))
+        .env("CARGO_BUILD_BUILD_DIR", folder.parent().expect("the project's target"))
         .env("RUST_BACKTRACE", "0")
         .env("WRITTEN", written.to_string())
         .env_remove("INSTA_UPDATE")
@@ -92,7 +110,7 @@ fn cargo(starter: &Path, arguments: &[&str], written: usize) -> Output {
 
 /// Runs the edition's tests.
 fn test(starter: &Path, written: usize) -> Outcome {
-    let run = cargo(starter, &["test", "--offline", "--test", "assignment"], written);
+    let run = cargo(starter, &["test", "--test", "assignment"], written);
     let text = String::from_utf8_lossy(&run.stdout).into_owned();
     assert!(text.contains("test result"), "{}", String::from_utf8_lossy(&run.stderr));
     let names = |end: &str| {
@@ -111,6 +129,9 @@ fn test(starter: &Path, written: usize) -> Outcome {
 fn each_section_turns_its_own_tests_green() {
     let folder = folder();
     let starter = edition(folder.path());
+    let resolved = cargo(&starter, &["metadata", "--format-version=1"], 0);
+    assert!(resolved.status.success(), "{}", String::from_utf8_lossy(&resolved.stderr));
+    take_profiles_of_the_project(&starter);
     let mut before = test(&starter, 0);
     let is_of = |name: &str, module: &str| name.starts_with(&format!("{module}::"));
     for name in &before.passed {
@@ -122,8 +143,7 @@ fn each_section_turns_its_own_tests_green() {
     let text = fs::read_to_string(&library).expect("the edition has a library");
     fs::write(&library, text + WRITTEN).expect("it can be written");
     // What is written so far compiles, whatever is left.
-    let build =
-        ["build", "--offline", "--lib", "--profile=test", "--config=profile.test.opt-level=0"];
+    let build = ["build", "--lib", "--profile=test"];
     for (number, (section, ..)) in SECTIONS.iter().enumerate() {
         fill(&starter, number);
         let built = cargo(&starter, &build, number + 1);
