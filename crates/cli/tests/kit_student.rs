@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 use crate::support::{fails, folder, run_line, stdout};
 
@@ -36,8 +36,11 @@ fn body<'a>(text: &'a str, section: &str, end: &str) -> Vec<&'a str> {
     lines.take_while(|line| *line != end).collect()
 }
 
-/// Writes the port's body of a section in place of its `todo!`. Gives the port's lines.
-fn fill(starter: &Path, section: &str, file: &str) -> Vec<String> {
+/// Writes the port's body of section `number` after its `todo!`, which is met as long as the
+/// environment says that fewer sections are written: one program then stands for every state that
+/// a student comes by. Gives the port's lines.
+fn fill(starter: &Path, number: usize) -> Vec<String> {
+    let (section, file, _) = SECTIONS[number];
     let path = starter.join(file);
     let text = fs::read_to_string(&path).expect("the edition has the file");
     let mark = format!("// {section}");
@@ -50,10 +53,22 @@ fn fill(starter: &Path, section: &str, file: &str) -> Vec<String> {
     let next = lines[end + 1..].iter().find(|line| !line.is_empty()).expect("a line after it");
     let original = port(file);
     let body = body(&original, section, next);
-    let filled = [&lines[..start], &body, &lines[end + 1..]].concat().join("\n") + "\n";
+    let open = format!("if crate::written() <= {number} {{");
+    let todo = [&[open.as_str()], &lines[start..=end], &["}"]].concat();
+    let filled = [&lines[..start], &todo, &body, &lines[end + 1..]].concat().join("\n") + "\n";
     fs::write(&path, filled).expect("the edition can be written");
     body.into_iter().map(str::to_owned).collect()
 }
+
+/// How many sections are written, to be added to the edition's library.
+const WRITTEN: &str = r#"
+fn written() -> usize {
+    static WRITTEN: std::sync::LazyLock<usize> = std::sync::LazyLock::new(|| {
+        std::env::var("WRITTEN").expect("it is set").parse().expect("a number")
+    });
+    *WRITTEN
+}
+"#;
 
 /// What the failing tests say, and the names of those that pass.
 struct Outcome {
@@ -61,17 +76,41 @@ struct Outcome {
     passed: BTreeSet<String>,
 }
 
-/// Runs the edition's tests. The libraries are built once for all runs.
-fn test(starter: &Path) -> Outcome {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("student-target");
-    let run = Command::new(env!("CARGO"))
-        .args(["test", "--offline", "--test", "assignment"])
+/// Builds the edition as this project is built, so that the libraries need not be built again.
+fn take_profiles_of_the_project(starter: &Path) {
+    let own = starter.join("Cargo.toml");
+    let text = fs::read_to_string(&own).expect("the edition has a manifest");
+    let project = port("Cargo.toml");
+    let parts = |text| str::split_once(text, "[profile.").expect("it has profiles");
+    let text = format!("{}[workspace]\n\n[profile.{}", parts(&text).0, parts(&project).1);
+    fs::write(&own, text).expect("it can be written");
+}
+
+/// Runs Cargo in the edition. What it builds it keeps where the project's own build is; settings
+/// that nothing there has keep it apart from the project's package of the same name.
+fn cargo(starter: &Path, arguments: &[&str], written: usize) -> Output {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    Command::new(env!("CARGO"))
+        .args(arguments)
+        .arg("--offline")
+        .args(
+            ["opt-level=1", "codegen-units=16"]
+                .map(|setting| format!("--config=profile.test.package.photon-mapping.{setting}")),
+        )
         .current_dir(starter)
-        .env("CARGO_TARGET_DIR", target)
+        .env("CARGO_INCREMENTAL", "1")
+        .env("CARGO_TARGET_DIR", folder.join("student-target"))
+        .env("CARGO_BUILD_BUILD_DIR", folder.parent().expect("the project's target"))
         .env("RUST_BACKTRACE", "0")
+        .env("WRITTEN", written.to_string())
         .env_remove("INSTA_UPDATE")
         .output()
-        .expect("cargo can be started");
+        .expect("cargo can be started")
+}
+
+/// Runs the edition's tests.
+fn test(starter: &Path, written: usize) -> Outcome {
+    let run = cargo(starter, &["test", "--test", "assignment"], written);
     let text = String::from_utf8_lossy(&run.stdout).into_owned();
     assert!(text.contains("test result"), "{}", String::from_utf8_lossy(&run.stderr));
     let names = |end: &str| {
@@ -90,14 +129,28 @@ fn test(starter: &Path) -> Outcome {
 fn each_section_turns_its_own_tests_green() {
     let folder = folder();
     let starter = edition(folder.path());
-    let mut before = test(&starter);
+    let resolved = cargo(&starter, &["metadata", "--format-version=1"], 0);
+    assert!(resolved.status.success(), "{}", String::from_utf8_lossy(&resolved.stderr));
+    take_profiles_of_the_project(&starter);
+    let mut before = test(&starter, 0);
     let is_of = |name: &str, module: &str| name.starts_with(&format!("{module}::"));
     for name in &before.passed {
         let is_of_section = SECTIONS.iter().any(|(_, _, module)| is_of(name, module));
         assert!(!is_of_section, "{name} passes before anything is written");
     }
     assert!(before.passed.iter().any(|name| is_of(name, "numerics")), "{:?}", before.passed);
-    for (number, (section, file, module)) in SECTIONS.into_iter().enumerate() {
+    let library = starter.join("src/lib.rs");
+    let text = fs::read_to_string(&library).expect("the edition has a library");
+    fs::write(&library, text + WRITTEN).expect("it can be written");
+    // What is written so far compiles, whatever is left.
+    let build = ["build", "--lib", "--profile=test"];
+    for (number, (section, ..)) in SECTIONS.iter().enumerate() {
+        fill(&starter, number);
+        let built = cargo(&starter, &build, number + 1);
+        let errors = String::from_utf8_lossy(&built.stderr);
+        assert!(built.status.success(), "after {section}: {errors}");
+    }
+    for (number, (section, _, module)) in SECTIONS.into_iter().enumerate() {
         for (name, said) in &before.failed {
             let message = |(section, ..): &(&str, &str, &str)| {
                 said.contains(&format!("not yet implemented: {section}: expected "))
@@ -107,8 +160,7 @@ fn each_section_turns_its_own_tests_green() {
                 assert!(message(&SECTIONS[number]), "{name} says: {said}");
             }
         }
-        fill(&starter, section, file);
-        let after = test(&starter);
+        let after = test(&starter, number + 1);
         let turned: BTreeSet<_> = after.passed.difference(&before.passed).collect();
         let expected = before.failed.keys().filter(|name| is_of(name, module));
         if number + 1 < SECTIONS.len() {
@@ -139,8 +191,8 @@ fn nothing_gives_the_answer_away() {
     // The framework's own code says how a material is found and how a ray is made.
     let given = port("src/rendering/backward_renderer.rs") + &port("src/scene/camera.rs");
     let mut seen = 0;
-    for (section, file, _) in SECTIONS {
-        for line in fill(&starter, section, file) {
+    for number in 0..SECTIONS.len() {
+        for line in fill(&starter, number) {
             let line = line.trim();
             // Ends of blocks and the like tell nothing.
             if line.len() < 20 || given.contains(line) {

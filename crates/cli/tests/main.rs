@@ -1,6 +1,8 @@
 //! The program as a user runs it, and what the pages say of it. One program of tests: it is linked
-//! once, and tests that wait take no other test's time.
+//! once, and tests that wait take no other test's time. Tests start in the order of their names:
+//! what waits longest comes first.
 
+mod array_job;
 mod check;
 mod command_line;
 mod companion;
@@ -26,5 +28,4 @@ mod pages;
 #[path = "report/main.rs"]
 mod report;
 mod shell;
-mod slurm;
 mod support;

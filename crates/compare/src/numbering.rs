@@ -5,6 +5,8 @@
 //! one of the run's photons, the record is that photon's first; if another record lies there, it is
 //! its next. The ray may have started off the surface: a few records show how far.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -40,9 +42,10 @@ const LONGEST_PATH: usize = 40;
 const MOST_STEPS: usize = 64;
 
 /// How records are led back to photons.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Link {
-    tries: Tries,
+    /// What the run's photons hit first, as they are emitted in this link.
+    first: Arc<[(u32, HitPoint)]>,
     /// How far from a hit the scattered ray starts.
     shift: Shift,
     /// How far a line back may pass from there, in world units.
@@ -70,33 +73,37 @@ pub fn links(run: &Run, list: &PhotonList) -> Vec<Link> {
     emissions.extend(other_emissions(reference).into_iter().map(|(tries, _)| tries));
     let step = list.records.len().div_ceil(SAMPLE);
     let sample: Vec<_> = list.records.iter().step_by(step).collect();
-    let mut best = (0.0, reference, Shift::default());
+    let of_reference = first_hits(run, &Fair { tries: reference, ..fair });
+    let mut best = (0.0, of_reference.clone(), Shift::default());
     for tries in emissions {
-        let hits: Vec<_> =
-            first_hits(run, &Fair { tries, ..fair }).into_iter().map(|(_, hit)| hit).collect();
-        let (votes, shift) = measured_shift(&hits, &sample, size);
+        let first = match tries == reference {
+            true => of_reference.clone(),
+            false => first_hits(run, &Fair { tries, ..fair }),
+        };
+        let (votes, shift) = measured_shift(&first, &sample, size);
         let part = votes as f32 / sample.len() as f32;
         if part > best.0 {
-            best = (part, tries, shift);
+            best = (part, first, shift);
         }
         if best.0 > MOST_AGREE {
             break;
         }
     }
-    let (agreeing, tries, shift) = best;
-    let measured = Link { tries, shift, reach: REACH * size, is_measured: true };
+    let (agreeing, first, shift) = best;
+    let has_agreed = agreeing > AGREEING;
     let long = LONG_REACHES.map(|reach| Link {
-        tries: if agreeing > AGREEING { tries } else { reference },
+        first: if has_agreed { first.clone() } else { of_reference.clone() },
         shift: Shift::default(),
         reach: reach * size,
         is_measured: false,
     });
-    (agreeing > AGREEING).then_some(measured).into_iter().chain(long).collect()
+    let measured = Link { first, shift, reach: REACH * size, is_measured: true };
+    has_agreed.then_some(measured).into_iter().chain(long).collect()
 }
 
 /// `list` with the photons and bounces of `run`; nothing where most records lead back to none.
 pub fn with_photons(run: &Run, list: &PhotonList, link: &Link) -> Option<PhotonList> {
-    let photons = photons_of(run, list, link)?;
+    let photons = photons_of(run, list, link);
     let found = photons.iter().flatten().count();
     (found as f32 > MOST * photons.len() as f32).then(|| numbered(list, &photons))
 }
@@ -113,40 +120,45 @@ fn numbered(list: &PhotonList, photons: &[Option<(u32, u16)>]) -> PhotonList {
     numbered
 }
 
-fn first_hits(run: &Run, fair: &Fair) -> Vec<(u32, HitPoint)> {
+fn first_hits(run: &Run, fair: &Fair) -> Arc<[(u32, HitPoint)]> {
     let photons = (0..run.renderer.emitted()).into_par_iter();
     photons.filter_map(|photon| Some((photon as u32, fair.first_hit(run, photon)?))).collect()
 }
 
 /// How far from their first hits the rays start that lead to `sample`, along the normal or back
 /// along the ray, and how many of the records agree.
-fn measured_shift(hits: &[HitPoint], sample: &[&PhotonRecord], size: f32) -> (usize, Shift) {
+fn measured_shift(
+    first: &[(u32, HitPoint)],
+    sample: &[&PhotonRecord],
+    size: f32,
+) -> (usize, Shift) {
     let width = REACH * size;
     let longest = LONGEST_OFFSET * size;
-    // For each record, the shifts under which its line back meets a start.
-    let shifts = |way: fn(&HitPoint) -> Vec3| -> Vec<f32> {
-        let of_record = |record: &&PhotonRecord| {
-            let back = record.to_light.normalize_or_zero();
-            let across = |v: Vec3| v - v.dot(back) * back;
-            let shift = move |hit: &HitPoint| {
-                let aside = across(hit.point - record.position);
-                if aside.length_squared() > longest * longest {
-                    return None;
-                }
-                let way = across(way(hit));
+    // The shifts of both kinds under which the line back of a record meets a start.
+    let shifts_of = |record: &&PhotonRecord| {
+        let back = record.to_light.normalize_or_zero();
+        let across = |v: Vec3| v - v.dot(back) * back;
+        let shifts = move |(_, hit): &(u32, HitPoint)| {
+            let aside = across(hit.point - record.position);
+            if aside.length_squared() > longest * longest {
+                return None;
+            }
+            Some([hit.normal, -hit.incoming].map(|way| {
+                let way = across(way);
                 // Along the line itself, any shift would do.
                 let along = -aside.dot(way) / way.length_squared().max(0.01);
                 let is_met = (aside + along * way).length() <= width;
                 (is_met && (-width..=longest).contains(&along)).then_some(along)
-            };
-            hits.iter().filter_map(shift).collect::<Vec<_>>()
+            }))
         };
-        let mut all: Vec<_> = sample.par_iter().flat_map_iter(of_record).collect();
-        all.sort_unstable_by(f32::total_cmp);
-        all
+        first.iter().filter_map(shifts).collect::<Vec<_>>()
     };
-    let along_normal = densest(&shifts(|hit| hit.normal), width);
-    let back = densest(&shifts(|hit| -hit.incoming), width);
+    let all: Vec<_> = sample.par_iter().flat_map_iter(shifts_of).collect();
+    let [along_normal, back] = [0, 1].map(|kind| {
+        let mut shifts: Vec<f32> = all.iter().filter_map(|shifts| shifts[kind]).collect();
+        shifts.sort_unstable_by(f32::total_cmp);
+        densest(&shifts, width)
+    });
     if along_normal.0 > back.0 {
         (along_normal.0, Shift { along_normal: along_normal.1, back: 0.0 })
     } else {
@@ -163,10 +175,9 @@ fn densest(values: &[f32], width: f32) -> (usize, f32) {
 }
 
 /// Photon and bounce of every record that leads back to a first hit, over other records or at once.
-fn photons_of(run: &Run, list: &PhotonList, link: &Link) -> Option<Vec<Option<(u32, u16)>>> {
-    let Link { tries, shift, reach, .. } = *link;
+fn photons_of(run: &Run, list: &PhotonList, link: &Link) -> Vec<Option<(u32, u16)>> {
+    let Link { ref first, shift, reach, .. } = *link;
     let size = run.size();
-    let first = first_hits(run, &Fair { tries, ..Fair::of(run)? });
     let points: Vec<_> = first.iter().map(|(_, hit)| hit.point).collect();
     let own = PositionIndex::new(&points, ROUNDING * size);
     let after_first = first.iter().map(|(_, hit)| hit.start(shift)).collect::<Vec<_>>();
@@ -230,7 +241,7 @@ fn photons_of(run: &Run, list: &PhotonList, link: &Link) -> Option<Vec<Option<(u
         }
         None
     };
-    Some((0..previous.len()).map(follow).collect())
+    (0..previous.len()).map(follow).collect()
 }
 
 /// The hit that `record` stands for, which it may have been stored off.

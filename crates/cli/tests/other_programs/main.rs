@@ -54,7 +54,7 @@ fn trace(tracer: &Path, settings: [&str; 3], list: &Path, form: [&str; 2]) {
 #[test]
 fn other_programs_are_judged_and_named_rightly() {
     let folder = folder();
-    let Some(tracer) = tracer(folder.path(), &["-O2"]) else { return };
+    let Some(tracer) = tracer(folder.path(), &["-O3"]) else { return };
     let cases = csv::Reader::from_reader(include_str!("cases.csv").as_bytes());
     let cases: Vec<Case> = cases.into_deserialize().collect::<Result<_, _>>().expect("well formed");
     let list = |case: &Case| folder.path().join(format!("{}.csv", case.name));

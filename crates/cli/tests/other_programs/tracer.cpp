@@ -127,7 +127,9 @@ struct Tracer {
         W a, e1, e2, n;
         int quad, obj;
     };
+    static const int TRIS = 24;
     std::vector<Tri> tris;
+    T c[9][TRIS];  // their corners and edges, a coordinate to a row
     std::vector<Rec> out;
     T cap = 1000;
     const T PIv = T(3.14159265358979323846);
@@ -167,6 +169,9 @@ struct Tracer {
                     W g = norm(cross(t.e1, t.e2));
                     t.n = dot(g, n) < 0 ? -g : g;
                 }
+                const T all[] = {t.a.x,  t.a.y,  t.a.z,  t.e1.x, t.e1.y,
+                                 t.e1.z, t.e2.x, t.e2.y, t.e2.z};
+                for (int k = 0; k < 9; ++k) c[k][tris.size()] = all[k];
                 tris.push_back(t);
             }
         }
@@ -181,19 +186,21 @@ struct Tracer {
             if (u < 1) return u;
         }
     }
-    bool hit(const Tri& t, W o, W d, T& tt) const {
-        W p = cross(d, t.e2);
-        T det = dot(t.e1, p);
-        if (std::fabs(det) < T(1e-7)) return false;
-        T inv = T(1) / det;
-        W s = o - t.a;
-        T u = dot(s, p) * inv;
-        if (!(u >= 0)) return false;
-        W q = cross(s, t.e1);
-        T v = dot(d, q) * inv;
-        if (!(v >= 0) || !(u + v <= 1)) return false;
-        tt = dot(t.e2, q) * inv;
-        return tt > (f.tmin ? T(1e-4) : T(-1e-7));
+    // Where the ray meets each triangle; 3.3e38 where it does not. Without branches, so that a
+    // compiler can look at several triangles at once.
+    void hits(W o, W d, T* at) const {
+        const T least = f.tmin ? T(1e-4) : T(-1e-7);
+        for (int k = 0; k < TRIS; ++k) {
+            W a{c[0][k], c[1][k], c[2][k]}, e1{c[3][k], c[4][k], c[5][k]},
+                e2{c[6][k], c[7][k], c[8][k]};
+            W p = cross(d, e2);
+            T det = dot(e1, p), inv = T(1) / det;
+            W s = o - a, q = cross(s, e1);
+            T u = dot(s, p) * inv, v = dot(d, q) * inv, t = dot(e2, q) * inv;
+            bool met = (std::fabs(det) >= T(1e-7)) & (u >= 0) & (v >= 0) & (u + v <= 1) &
+                       (t > least);
+            at[k] = met ? t : T(3.3e38);
+        }
     }
     int trace(W o, W d, T& best, int skip) const {
         int r = -1;
@@ -202,11 +209,11 @@ struct Tracer {
             best = d.x;
             return 0;
         }
-        for (int k = 0; k < (int)tris.size(); ++k) {
-            if (k == skip) continue;
-            T t;
-            if (hit(tris[k], o, d, t) && t <= best + T(1e-7)) {
-                best = t;
+        T at[TRIS];
+        hits(o, d, at);
+        for (int k = 0; k < TRIS; ++k) {
+            if (k != skip && at[k] <= best + T(1e-7)) {
+                best = at[k];
                 r = k;
                 if (f.firsthit) return r;
             }
