@@ -26,8 +26,12 @@ impl Copies {
 
 /// Which part of `records` come more than once, to the last bit.
 pub(super) fn copies(records: &[PhotonRecord]) -> Copies {
-    let bits = |record: &PhotonRecord| record.position.to_array().map(f32::to_bits);
-    let mut sorted: Vec<[u32; 3]> = records.iter().map(bits).collect();
+    // As one number, which is quicker to sort than three.
+    let bits = |record: &PhotonRecord| {
+        let coordinates = record.position.to_array().into_iter();
+        coordinates.fold(0_u128, |all, x| all << 32 | u128::from(x.to_bits()))
+    };
+    let mut sorted: Vec<u128> = records.iter().map(bits).collect();
     sorted.sort_unstable();
     let all = in_runs(&sorted, |a, b| a == b);
     let side_by_side = in_runs(records, |a, b| bits(a) == bits(b));
