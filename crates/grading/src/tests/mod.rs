@@ -1,7 +1,10 @@
 //! The grader through the library: submissions of every kind, and what is said of them.
 
+mod columns;
 mod faults;
+mod laws;
 mod lists;
+mod names;
 mod own_lists;
 mod planted;
 mod power;
@@ -43,4 +46,13 @@ fn positions_of(records: &[PhotonRecord]) -> Observation {
 
 fn name(judgment: &Judgment) -> Option<&str> {
     judgment.explanation.as_ref().map(|explanation| explanation.hypothesis.id)
+}
+
+fn is_incorrect(judgment: &Judgment) -> bool {
+    judgment.findings.iter().any(|finding| finding.is_fault())
+}
+
+/// Whether photons are said to come straight from the light.
+fn says_direct(judgment: &Judgment) -> bool {
+    judgment.findings.iter().any(|finding| finding.check == "indirect only" && finding.is_fault())
 }
