@@ -90,8 +90,8 @@ pub(crate) fn candidates<E: Evidence>(evidence: &E, joined: &Joined) -> Vec<Expl
 }
 
 /// How well one hypothesis agrees: the likelihood by cells, which tell the most, and the smallest
-/// p-value, with regard to their number. Nothing where the facets alone rule it out, which they
-/// nearly always do: cells take ten times as long.
+/// p-value, with regard to their number. Nothing where the facets alone rule it out: they
+/// are a few counts, and cells are many.
 fn hold_against<E: Evidence>(
     evidence: &E,
     joined: &Joined,

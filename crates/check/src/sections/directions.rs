@@ -104,21 +104,18 @@ impl Directions {
         };
         let seen: Vec<_> =
             tried().map(|(_, matrix)| self.seen_from(&self.floor, *matrix)).collect();
+        let even: Vec<_> = (seen.iter().enumerate())
+            .filter(|(_, [_, around, above])| above[0] > 0.999 && is_uniform(around))
+            .collect();
         // The cosine comes first: what follows it in any frame follows nothing else.
         let laws = std::iter::once(None).chain(LAWS.iter().map(Some));
-        let even: Vec<_> = (0..seen.len())
-            .filter(|number| {
-                let [_, around, above] = &seen[*number];
-                above[0] > 0.999 && is_uniform(around)
-            })
-            .collect();
-        let found = laws.into_iter().find_map(|law| {
-            let due = law.filter(|_| !even.is_empty()).map(AngleLaw::squared_sines);
-            let follows = |number: &&usize| match &due {
-                Some(due) => are_alike(&seen[**number][0], due),
-                None => is_uniform(&seen[**number][0]),
-            };
-            Some((*even.iter().find(follows)?, law))
+        let found = laws.filter(|_| !even.is_empty()).find_map(|law| {
+            let due = law.map(AngleLaw::squared_sines);
+            let (number, _) = even.iter().find(|(_, [sines, ..])| match &due {
+                Some(due) => are_alike(sines, due),
+                None => is_uniform(sines),
+            })?;
+            Some((*number, law))
         });
         if let Some((number, law)) = found {
             self.frame_of_floor = tried().nth(number).map(|(frame, _)| *frame);

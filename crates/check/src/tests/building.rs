@@ -9,7 +9,7 @@ use variants::section::Section;
 
 use super::{faults, handed_in, kit, read, report, report_on, sections_text, target};
 use crate::checking::{CheckSettings, check};
-use crate::find::{CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER};
+use crate::find::{CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER};
 use crate::kit::{FIRST_HEADERS, HARNESS, Kit, STANDARD};
 use crate::report::Builds;
 use crate::sections::Status;
@@ -213,6 +213,21 @@ fn headers_are_precompiled_for_what_includes_them_as_they_are() {
     fs::write(kit.object(0), "").expect("can be written");
     kit.prepare_for(1);
     assert!(precompiled.exists());
+}
+
+/// Else it would have to be compiled anew where a student's header takes the place of one.
+#[test]
+fn what_is_kept_reads_no_header_that_a_student_may_change() {
+    let Some(kit) = kit() else { return };
+    let command = kit.command(STANDARD);
+    let mut list = Command::new(&command[0]);
+    list.args(&command[1..]).arg("-M").arg("-I").arg(kit.path().join("standin"));
+    let output = list.arg(kit.path().join(HARNESS[1])).output().expect("a compiler");
+    let read = String::from_utf8_lossy(&output.stdout);
+    assert!(read.contains("common/Scene/Scene.h"), "{read}");
+    for folder in [LIGHT_FOLDER, RENDERER_FOLDER] {
+        assert!(!read.contains(&format!("{folder}/")), "{read}");
+    }
 }
 
 #[test]
