@@ -76,14 +76,16 @@ fn smallest(records: &[PhotonRecord], size: f32) -> Vec<u64> {
 
 fn hash(position: Vec3, size: f32) -> u64 {
     // The middle of a cell is a rounded number, which rounding leaves where it is.
-    let cell = (position / size).round().to_array();
-    cell.into_iter().fold(0, |hash: u64, coordinate| {
-        // Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators" (2014), figure 14.
-        let mixed = (hash ^ (coordinate as i64 as u64)).wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    })
+    let [x, y, z] = (position / size).round().to_array();
+    mixed(mixed(mixed(0, x), y), z)
+}
+
+fn mixed(hash: u64, coordinate: f32) -> u64 {
+    // Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators" (2014), figure 14.
+    let mixed = (hash ^ (coordinate as i64 as u64)).wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
 }
 
 /// Which part of the cells of both lists is in both.
