@@ -58,12 +58,16 @@ impl Fingerprint {
 /// The smallest hashes of cells of this `size` that have photons in them, in ascending order.
 fn smallest(records: &[PhotonRecord], size: f32) -> Vec<u64> {
     let mut kept = BTreeSet::new();
+    let mut largest = u64::MAX;
     for record in records.iter().filter(|record| record.position.is_finite()) {
         let hash = hash(record.position, size);
-        if kept.len() < KEPT || kept.last().is_some_and(|last| hash < *last) {
+        if hash <= largest {
             kept.insert(hash);
             if kept.len() > KEPT {
                 kept.pop_last();
+            }
+            if let (KEPT, Some(last)) = (kept.len(), kept.last()) {
+                largest = *last;
             }
         }
     }
@@ -72,14 +76,16 @@ fn smallest(records: &[PhotonRecord], size: f32) -> Vec<u64> {
 
 fn hash(position: Vec3, size: f32) -> u64 {
     // The middle of a cell is a rounded number, which rounding leaves where it is.
-    let cell = (position / size).round().to_array();
-    cell.into_iter().fold(0, |hash: u64, coordinate| {
-        // Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators" (2014), figure 14.
-        let mixed = (hash ^ (coordinate as i64 as u64)).wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    })
+    let [x, y, z] = (position / size).round().to_array();
+    mixed(mixed(mixed(0, x), y), z)
+}
+
+fn mixed(hash: u64, coordinate: f32) -> u64 {
+    // Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators" (2014), figure 14.
+    let mixed = (hash ^ (coordinate as i64 as u64)).wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
 }
 
 /// Which part of the cells of both lists is in both.
@@ -97,7 +103,14 @@ fn shared(a: &[u64], b: &[u64]) -> SharedParts {
         [a, b].into_iter().filter(|hashes| hashes.len() >= KEPT).filter_map(|hashes| hashes.last());
     let end = end.min().copied().unwrap_or(u64::MAX);
     let [a, b] = [a, b].map(|hashes| &hashes[..hashes.partition_point(|hash| *hash <= end)]);
-    let both = a.iter().filter(|hash| b.binary_search(hash).is_ok()).count();
+    // Both are in order, and a class has many pairs.
+    let (mut both, mut at) = (0, 0);
+    for hash in a {
+        while at < b.len() && b[at] < *hash {
+            at += 1;
+        }
+        both += usize::from(b.get(at) == Some(hash));
+    }
     let fewer = a.len().min(b.len());
     let part = |of: usize| if both < FEWEST_SHARED { 0.0 } else { both as f64 / of as f64 };
     SharedParts { of_all: part(a.len() + b.len() - both), of_fewer: part(fewer) }
@@ -105,12 +118,16 @@ fn shared(a: &[u64], b: &[u64]) -> SharedParts {
 
 /// For each of `all`, which others have the same photons.
 pub fn twins(all: &[Option<&Fingerprint>]) -> Vec<Vec<usize>> {
-    let is_like = |at: usize, other: usize| match (all[at], all[other]) {
-        (Some(one), Some(other)) => one.is_like(other),
-        _ => false,
-    };
-    let others = |at: usize| (0..all.len()).filter(move |other| *other != at);
-    (0..all.len()).map(|at| others(at).filter(|other| is_like(at, *other)).collect()).collect()
+    let mut twins = vec![Vec::new(); all.len()];
+    for (other, two) in all.iter().enumerate() {
+        for (at, one) in all[..other].iter().enumerate() {
+            if one.zip(*two).is_some_and(|(one, two)| one.is_like(two)) {
+                twins[at].push(other);
+                twins[other].push(at);
+            }
+        }
+    }
+    twins
 }
 
 #[cfg(test)]

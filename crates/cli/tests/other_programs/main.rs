@@ -54,7 +54,7 @@ fn trace(tracer: &Path, settings: [&str; 3], list: &Path, form: [&str; 2]) {
 #[test]
 fn other_programs_are_judged_and_named_rightly() {
     let folder = folder();
-    let Some(tracer) = tracer(folder.path(), &["-O3"]) else { return };
+    let Some(tracer) = tracer(folder.path(), &["-O2", "-ftree-vectorize"]) else { return };
     let cases = csv::Reader::from_reader(include_str!("cases.csv").as_bytes());
     let cases: Vec<Case> = cases.into_deserialize().collect::<Result<_, _>>().expect("well formed");
     let list = |case: &Case| folder.path().join(format!("{}.csv", case.name));
@@ -106,7 +106,8 @@ fn other_programs_are_judged_and_named_rightly() {
 fn the_arithmetic_of_other_compilers_is_correct() {
     for options in [&["-O2", "-mfpmath=387"][..], &["-O3", "-ffast-math", "-march=native"]] {
         let folder = folder();
-        let Some(tracer) = tracer(folder.path(), options) else { return };
+        let options = [options, &["-DONLY_FLOAT"]].concat();
+        let Some(tracer) = tracer(folder.path(), &options) else { return };
         for (emitted, seed) in [("200000", "3148"), ("1000000", "3149")] {
             let list = folder.path().join("list.csv");
             trace(&tracer, ["nbasis", emitted, seed], &list, ["all", "9"]);
