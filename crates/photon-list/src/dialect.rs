@@ -113,10 +113,6 @@ fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
     // Some spreadsheets quote whole rows.
     let inner = row.strip_prefix('"').and_then(|row| row.strip_suffix('"'));
     let mut rest = Some(inner.filter(|inner| !inner.contains('"')).unwrap_or(row));
-    let ends = move |letter: char| match separator {
-        Some(separator) => letter == separator,
-        None => letter.is_whitespace(),
-    };
     std::iter::from_fn(move || {
         let row = rest?;
         let row = if separator.is_none() { row.trim_start() } else { row };
@@ -127,7 +123,11 @@ fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
         let quoted = row.trim_start_matches(' ').strip_prefix('"');
         let closing = quoted.and_then(|quoted| Some(row.len() - quoted.len() + quoted.find('"')?));
         let from = closing.unwrap_or_default();
-        let (cell, after) = match row[from..].find(ends) {
+        let end = match separator {
+            Some(separator) => row[from..].find(separator),
+            None => row[from..].find(char::is_whitespace),
+        };
+        let (cell, after) = match end {
             None => (row, None),
             Some(end) => {
                 let end = from + end;
