@@ -10,7 +10,7 @@ use variants::section::Section;
 use super::{faults, handed_in, kit, read, report, report_on, sections_text, target};
 use crate::checking::{CheckSettings, check};
 use crate::find::{CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER};
-use crate::kit::{FIRST_HEADERS, HARNESS, Kit, STANDARD};
+use crate::kit::{COMMON, HARNESS, Kit, STANDARD};
 use crate::report::Builds;
 use crate::sections::Status;
 use crate::workshop::Workshop;
@@ -182,30 +182,56 @@ fn a_compiler_that_waits_for_a_busy_machine_has_time() {
     assert_eq!(report.builds, Builds::Yes);
 }
 
-/// What stands before the first header changes it, so that it is read anew.
+/// What stands before the first header may change it, so that all is read anew.
 #[test]
 fn headers_are_precompiled_for_what_includes_them_as_they_are() {
     let Some(kit) = kit() else { return };
     if kit.is_clang {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let submission = folder.path().join("one.cpp");
-    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
-        for (first, is_taken) in [("// one\n", true), ("#define private public\n", false)] {
-            fs::write(&submission, first.to_owned() + &read(name)).expect("can be written");
-            let command = kit.command(STANDARD);
-            let mut compiler = Command::new(&command[0]);
-            compiler.args(&command[1..]).arg("-I").arg(kit.path().join("standin"));
-            compiler.args(["-H", "-fsyntax-only"]).arg(&submission);
-            let printed = compiler.output().expect("a compiler").stderr;
-            let printed = String::from_utf8_lossy(&printed);
-            assert!(printed.contains(".h.gch"), "{name}: {printed}");
-            assert_eq!(printed.starts_with("! "), is_taken, "{name}: {printed}");
+    let members = handed_in().join("styles/members/PhotonMappingRenderer.h");
+    let header = fs::read_to_string(members).expect("a header");
+    let system = "#include <random> // one\n";
+    let define = "#define private public\n";
+    let [light, renderer] = [LIGHT, RENDERER].map(read);
+    // What stands before the light, before the renderer and in its header, and whether the light,
+    // the renderer and the harness read what is precompiled.
+    for (before_light, before_renderer, header, is_taken) in [
+        ("// one\n", system, String::new(), [true, true, true]),
+        (define, "#ifdef NO\n#endif\n", String::new(), [false, false, true]),
+        ("", "", header.clone(), [true, true, true]),
+        ("", "", system.to_owned() + &header, [true, true, true]),
+        ("", "", define.to_owned() + &header, [true, false, false]),
+        ("", "", "#include \"other.h\"\n".to_owned() + &header, [true, false, false]),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = |name: &str, text: String| {
+            fs::write(folder.path().join(name), text).expect("can be written");
+        };
+        file(LIGHT, before_light.to_owned() + &light);
+        file(RENDERER, before_renderer.to_owned() + &renderer);
+        if !header.is_empty() {
+            file("PhotonMappingRenderer.h", header.clone());
+            file("other.h", define.to_owned());
         }
+        let [light, renderer] = [LIGHT, RENDERER].map(|name| folder.path().join(name));
+        let submission = CppSubmission::default();
+        let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("it is new");
+        let at = |place: &str| workshop.path().join("submission").join(place);
+        let sources = [
+            (at(LIGHT_FOLDER).join(LIGHT), false),
+            (at(RENDERER_FOLDER).join(RENDERER), false),
+            (kit.path().join(HARNESS[0]), true),
+        ];
+        let taken = sources.map(|(source, is_harness)| {
+            let object = workshop.compile(&source, is_harness).expect("a compiler");
+            let list = object.expect("it compiles").path.with_extension("d");
+            !fs::read_to_string(list).expect("a list").contains("/glm.hpp")
+        });
+        assert_eq!(taken, is_taken, "{before_light:?}, {before_renderer:?}, {header}");
     }
     let mut kit = Kit::kept_in(None, None).expect("there was one");
-    let precompiled = kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch");
+    let precompiled = kit.path().join(COMMON.to_owned() + ".gch");
     kit.prepare_for(1);
     assert!(!precompiled.exists());
     // Whose harness is kept checks again and again.
