@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
 
@@ -189,20 +190,25 @@ fn headers_are_precompiled_for_what_includes_them_as_they_are() {
     if kit.is_clang {
         return;
     }
-    let members = handed_in().join("styles/members/PhotonMappingRenderer.h");
-    let header = fs::read_to_string(members).expect("a header");
+    let members = "PhotonMappingRenderer.h";
+    let text = |path: PathBuf| fs::read_to_string(path).expect("a header");
+    let of_members = text(handed_in().join("styles/members").join(members));
+    let of_photon = text(kit.path().join("standin").join(RENDERER_FOLDER).join("Photon.h"));
+    let other = "#include \"other.h\"\n";
     let system = "#include <random> // one\n";
-    let define = "#define private public\n";
+    let define = "#define NUMBERS 3\n";
     let [light, renderer] = [LIGHT, RENDERER].map(read);
-    // What stands before the light, before the renderer and in its header, and whether the light,
-    // the renderer and the harness read what is precompiled.
-    for (before_light, before_renderer, header, is_taken) in [
-        ("// one\n", system, String::new(), [true, true, true]),
-        (define, "#ifdef NO\n#endif\n", String::new(), [false, false, true]),
-        ("", "", header.clone(), [true, true, true]),
-        ("", "", system.to_owned() + &header, [true, true, true]),
-        ("", "", define.to_owned() + &header, [true, false, false]),
-        ("", "", "#include \"other.h\"\n".to_owned() + &header, [true, false, false]),
+    // What stands before the light and before the renderer, a header that is handed in, and whether
+    // the light, the renderer and the harness read what is precompiled.
+    for (before_light, before_renderer, (name, header), is_taken) in [
+        ("// one\n", system, ("", ""), [true, true, true]),
+        (define, "#ifdef NO\n#endif\n", ("", ""), [false, false, true]),
+        ("", "", (members, &*of_members), [true, true, true]),
+        ("", "", (members, &*(system.to_owned() + &of_members)), [true, true, true]),
+        // The harness reads another header of the framework first.
+        ("", "", (members, &*(define.to_owned() + &of_members)), [true, false, true]),
+        ("", "", (members, &*(other.to_owned() + &of_members)), [true, false, true]),
+        ("", "", ("Photon.h", &*(define.to_owned() + &of_photon)), [true, true, false]),
     ] {
         let folder = tempfile::tempdir().expect("a folder");
         let file = |name: &str, text: String| {
@@ -210,8 +216,8 @@ fn headers_are_precompiled_for_what_includes_them_as_they_are() {
         };
         file(LIGHT, before_light.to_owned() + &light);
         file(RENDERER, before_renderer.to_owned() + &renderer);
-        if !header.is_empty() {
-            file("PhotonMappingRenderer.h", header.clone());
+        if !name.is_empty() {
+            file(name, header.to_owned());
             file("other.h", define.to_owned());
         }
         let [light, renderer] = [LIGHT, RENDERER].map(|name| folder.path().join(name));
