@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::diagnostics::{BuildError, missing_header, missing_in_list, parse_error, paths_of_list};
 use crate::error::CheckError;
 use crate::find::{LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER};
-use crate::foreign::{file_directive, starts_with_our_header, take_headers};
+use crate::foreign::{file_directive, take_headers};
 use crate::kit::{HARNESS, STANDARD};
 use crate::sandbox::Exit;
 use crate::workshop::Workshop;
@@ -178,10 +178,7 @@ impl Workshop<'_> {
             folder("-I", glm);
         }
         folder("-idirafter", &self.headers().folder());
-        let text = || fs::read(attempt.source).unwrap_or_default();
-        if !attempt.is_harness && !starts_with_our_header(&String::from_utf8_lossy(&text())) {
-            folder("-include", &self.kit.path().join("harness/first.hpp"));
-        }
+        folder("-include", &self.kit.path().join(self.header_before(attempt.source)));
         command
     }
 

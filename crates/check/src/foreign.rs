@@ -71,31 +71,6 @@ fn is_text(line: &str) -> bool {
     TEXTS.contains(&directive) && end.is_some_and(|(at, _)| at + 1 == text.len())
 }
 
-/// Whether the first thing in `source` is plainly a header that the compiler looks for in our
-/// folders. GCC takes the first header as somebody compiled it, if that lies beside it, and what
-/// was compiled elsewhere may do anything to the compiler.
-pub(crate) fn starts_with_our_header(source: &str) -> bool {
-    let mut rest = source.trim_start();
-    while let Some(comment) = rest
-        .strip_prefix("//")
-        .map(|it| it.split_once('\n'))
-        .or_else(|| rest.strip_prefix("/*").map(|it| it.split_once("*/")))
-    {
-        let Some((comment, after)) = comment else { return false };
-        // A comment whose line ends so goes on.
-        if comment.contains('\\') {
-            return false;
-        }
-        rest = after.trim_start();
-    }
-    let name = rest.strip_prefix('#').map(str::trim_start);
-    let name = name.and_then(|rest| rest.strip_prefix("include")).map(str::trim_start);
-    let name = name.and_then(|rest| rest.strip_prefix(['"', '<'])?.split(['"', '>']).next());
-    name.is_some_and(|name| {
-        !name.starts_with('/') && !name.contains("..") && !name.contains(['\\', '\n'])
-    })
-}
-
 /// `path` without `..`, as it is written: what a folder of the system links to is trusted, too.
 fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
@@ -147,26 +122,6 @@ mod tests {
             ["/usr/include/a.h", "/k/a.h.gch", "/usr/include/a b.h"]
         );
         assert_eq!(printed, "/x/a.cpp:1:2: error: no\n");
-    }
-
-    #[test]
-    fn only_what_is_plainly_ours_may_be_precompiled() {
-        for ours in ["#include <a/b.h>\n", "// one\n/* two\n */\n # include\"b.h\"\nint a;"] {
-            assert!(starts_with_our_header(ours), "{ours}");
-        }
-        for other in [
-            "#include \"/home/eve/evil.h\"\n",
-            "#include \"../../evil.h\"\n",
-            "// \\\n#include <a.h>\n#include \"/home/eve/evil.h\"\n",
-            "/* \\\n*/#include <a.h>\n",
-            "#define A \"/home/eve/evil.h\"\n#include A\n",
-            "%:include \"/home/eve/evil.h\"\n",
-            "int a;\n#include <a.h>\n",
-            "// no end",
-            "",
-        ] {
-            assert!(!starts_with_our_header(other), "{other}");
-        }
     }
 
     #[test]

@@ -15,16 +15,15 @@ use crate::kept::{kept, make_whole, remove_unused, users_folder};
 
 /// The framework's standard.
 pub(crate) const STANDARD: &str = "-std=gnu++11";
-/// The headers that the two files include first.
-pub(crate) const FIRST_HEADERS: [&str; 2] = [
-    "standin/common/Rendering/Renderer/Photon/PhotonMappingRenderer.h",
-    "standin/common/Scene/Lights/Point/PointLight.h",
-];
+/// What nearly all files read first, and takes most of the time: the standard headers, and glm.
+pub(crate) const COMMON: &str = "standin/common/common.h";
+/// What is read in its place.
+pub(crate) const NOTHING: &str = "harness/first.hpp";
 /// The sources of the harness. The first is compiled anew for submissions that replace a header of
 /// the framework.
 pub(crate) const HARNESS: [&str; 2] = ["harness/harness.cpp", "harness/rest.cpp"];
-/// For as many submissions, precompiled headers take less time than they save.
-const MANY: usize = 6;
+/// For as many submissions, a precompiled header takes less time than it saves.
+const MANY: usize = 3;
 /// How the names of our folders begin.
 pub(crate) const PREFIX: &str = "photon-mapping-check-";
 /// A younger folder may not be locked yet.
@@ -145,34 +144,24 @@ impl Kit {
         self.folder.path()
     }
 
-    /// Precompiles headers if so many `submissions` follow that it saves time, or this user checks
-    /// again and again. GCC takes what is precompiled only where that changes nothing: for the
-    /// first header that a file includes.
+    /// Precompiles [`COMMON`] if so many `submissions` follow that it saves time, or this user
+    /// checks again and again.
     pub fn prepare_for(&self, submissions: usize) {
-        // Clang would have to be told in every call, and would then take it in any case.
-        if self.is_clang || (submissions < MANY && !self.object(0).exists()) {
+        let header = self.path().join(COMMON);
+        let precompiled = header.with_extension("h.gch");
+        let is_wanted = submissions >= MANY || self.object(0).exists();
+        // Clang has another format.
+        if self.is_clang || !is_wanted || precompiled.exists() {
             return;
         }
-        let precompile = |header: &str| {
-            let header = self.path().join(header);
-            let precompiled = header.with_extension("h.gch");
-            if precompiled.exists() {
-                return;
-            }
-            let command = self.command(STANDARD);
-            let mut process = Command::new(&command[0]);
-            process.args(&command[1..]).arg("-I").arg(self.path().join("standin"));
-            process.args(self.glm.iter().flat_map(|glm| ["-I".as_ref(), glm.as_os_str()]));
-            process.args(["-x", "c++-header"]).arg(header).stdin(Stdio::null());
-            // What fails here fails again where it is told.
-            let _ = make_whole(&precompiled, |path| {
-                Ok(process.arg("-o").arg(path).output()?.status.success())
-            });
-        };
-        std::thread::scope(|scope| {
-            for header in FIRST_HEADERS {
-                scope.spawn(move || precompile(header));
-            }
+        let command = self.command(STANDARD);
+        let mut process = Command::new(&command[0]);
+        process.args(&command[1..]);
+        process.args(self.glm.iter().flat_map(|glm| ["-I".as_ref(), glm.as_os_str()]));
+        process.args(["-x", "c++-header"]).arg(header).stdin(Stdio::null());
+        // What fails here fails again where it is told.
+        let _ = make_whole(&precompiled, |path| {
+            Ok(process.arg("-o").arg(path).output()?.status.success())
         });
     }
 

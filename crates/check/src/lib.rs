@@ -13,6 +13,7 @@ mod diagnostics;
 pub mod error;
 mod events;
 pub mod find;
+mod first;
 mod foreign;
 pub mod grade;
 mod headers;

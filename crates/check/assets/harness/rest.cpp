@@ -1,7 +1,8 @@
 // What no header of a student's changes, in one unit: glm is read once.
+#include "scene.cpp"
+
 #include "around.cpp"
 #include "guard.cpp"
 #include "plan.cpp"
 #include "random.cpp"
 #include "recorder.cpp"
-#include "scene.cpp"

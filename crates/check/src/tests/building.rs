@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
 
@@ -10,7 +11,7 @@ use variants::section::Section;
 use super::{faults, handed_in, kit, read, report, report_on, sections_text, target};
 use crate::checking::{CheckSettings, check};
 use crate::find::{CppSubmission, LIGHT, LIGHT_FOLDER, RENDERER, RENDERER_FOLDER};
-use crate::kit::{FIRST_HEADERS, HARNESS, Kit, STANDARD};
+use crate::kit::{COMMON, HARNESS, Kit, STANDARD};
 use crate::report::Builds;
 use crate::sections::Status;
 use crate::workshop::Workshop;
@@ -182,30 +183,65 @@ fn a_compiler_that_waits_for_a_busy_machine_has_time() {
     assert_eq!(report.builds, Builds::Yes);
 }
 
-/// What stands before the first header changes it, so that it is read anew.
+/// What stands before the first header may change it, so that all is read anew.
 #[test]
 fn headers_are_precompiled_for_what_includes_them_as_they_are() {
     let Some(kit) = kit() else { return };
     if kit.is_clang {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let submission = folder.path().join("one.cpp");
-    for name in ["PointLight.cpp", "PhotonMappingRenderer.cpp"] {
-        for (first, is_taken) in [("// one\n", true), ("#define private public\n", false)] {
-            fs::write(&submission, first.to_owned() + &read(name)).expect("can be written");
-            let command = kit.command(STANDARD);
-            let mut compiler = Command::new(&command[0]);
-            compiler.args(&command[1..]).arg("-I").arg(kit.path().join("standin"));
-            compiler.args(["-H", "-fsyntax-only"]).arg(&submission);
-            let printed = compiler.output().expect("a compiler").stderr;
-            let printed = String::from_utf8_lossy(&printed);
-            assert!(printed.contains(".h.gch"), "{name}: {printed}");
-            assert_eq!(printed.starts_with("! "), is_taken, "{name}: {printed}");
+    let members = "PhotonMappingRenderer.h";
+    let text = |path: PathBuf| fs::read_to_string(path).expect("a header");
+    let of_members = text(handed_in().join("styles/members").join(members));
+    let of_photon = text(kit.path().join("standin").join(RENDERER_FOLDER).join("Photon.h"));
+    let other = "#include \"other.h\"\n";
+    let system = "#include <random> // one\n";
+    let define = "#define NUMBERS 3\n";
+    let [light, renderer] = [LIGHT, RENDERER].map(read);
+    // What stands before the light and before the renderer, a header that is handed in, and whether
+    // the light, the renderer and the harness read what is precompiled. One in each of two cases is
+    // compiled, lest GCC refuse it.
+    for (before_light, before_renderer, (name, header), is_taken, compiled) in [
+        ("// one\n", system, ("", ""), [true, true, true], None),
+        (define, "#ifdef NO\n#endif\n", ("", ""), [false, false, true], Some(0)),
+        ("", "", (members, &*of_members), [true, true, true], Some(2)),
+        ("", "", (members, &*(system.to_owned() + &of_members)), [true, true, true], None),
+        // The harness reads another header of the framework first.
+        ("", "", (members, &*(define.to_owned() + &of_members)), [true, false, true], None),
+        ("", "", (members, &*(other.to_owned() + &of_members)), [true, false, true], None),
+        ("", "", ("Photon.h", &*(define.to_owned() + &of_photon)), [true, true, false], None),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = |name: &str, text: String| {
+            fs::write(folder.path().join(name), text).expect("can be written");
+        };
+        file(LIGHT, before_light.to_owned() + &light);
+        file(RENDERER, before_renderer.to_owned() + &renderer);
+        if !name.is_empty() {
+            file(name, header.to_owned());
+            file("other.h", define.to_owned());
+        }
+        let [light, renderer] = [LIGHT, RENDERER].map(|name| folder.path().join(name));
+        let submission = CppSubmission::default();
+        let workshop = Workshop::new(kit, &light, &renderer, &submission, TIME).expect("it is new");
+        let at = |place: &str| workshop.path().join("submission").join(place);
+        let sources = [
+            (at(LIGHT_FOLDER).join(LIGHT), false),
+            (at(RENDERER_FOLDER).join(RENDERER), false),
+            (kit.path().join(HARNESS[0]), true),
+        ];
+        let taken = sources.each_ref().map(|(source, _)| workshop.header_before(source) == COMMON);
+        assert_eq!(taken, is_taken, "{before_light:?}, {before_renderer:?}, {header}");
+        if let Some(at) = compiled {
+            let (source, is_harness) = &sources[at];
+            let object = workshop.compile(source, *is_harness).expect("a compiler");
+            let list = object.expect("it compiles").path.with_extension("d");
+            let is_read = fs::read_to_string(list).expect("a list").contains("/glm.hpp");
+            assert_eq!(is_read, !is_taken[at], "{}", source.display());
         }
     }
     let mut kit = Kit::kept_in(None, None).expect("there was one");
-    let precompiled = kit.path().join(FIRST_HEADERS[0].to_owned() + ".gch");
+    let precompiled = kit.path().join(COMMON.to_owned() + ".gch");
     kit.prepare_for(1);
     assert!(!precompiled.exists());
     // Whose harness is kept checks again and again.

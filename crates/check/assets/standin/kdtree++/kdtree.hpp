@@ -2,13 +2,11 @@
 // told to the harness's recorder; that is how `photon-mapping check` learns what is stored.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include "common/common.h"
+
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <utility>
-#include <vector>
 
 #include "photon_dump.hpp"
 
