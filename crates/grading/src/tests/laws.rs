@@ -14,6 +14,7 @@ use super::{EXPECTATIONS, observed, positions_of, records};
 use crate::expected::{Expected, fit_size};
 use crate::judge_list::{Judgment, SIGNIFICANCE, judge};
 use crate::observation::CountsByPlace;
+use crate::picture::expected::exp_m1;
 use crate::places::Place;
 use crate::signature::{Signature, Signatures, classes, measure};
 use crate::statistics::{corrected, normal_tail};
@@ -229,6 +230,14 @@ fn corrections_and_tails_are_the_textbooks() {
     assert!((corrected(0.05, 2) - 0.0975).abs() < 1e-12);
     assert!((corrected(1e-20, 10) / 1e-19 - 1.0).abs() < 1e-9);
     assert!((corrected(1.0, 3) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_series_of_small_numbers_has_their_digits() {
+    for at in 0..2000 {
+        let x = f64::from(at) / 32_000.0;
+        assert!((exp_m1(x) - x.exp_m1()).abs() <= 1e-15 * x.exp_m1(), "{x}");
+    }
 }
 
 #[test]
