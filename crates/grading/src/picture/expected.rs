@@ -71,17 +71,7 @@ pub fn expect(
     for overlap in &view.overlaps {
         let [a, b] = overlap.patches;
         let common = (rates[a] * rates[b]).sqrt();
-        // exp(x + y) - 1 of exp(x) - 1 and exp(y) - 1: shares are half a step apart.
-        let add = |x: f64, y: f64| x + y + x * y;
-        let half = exp_m1(0.5 * common / SHARES as f64);
-        let (step, mut of_share, mut sum) = (add(half, half), half, 0.0);
-        for pairs in &overlap.pairs[..SHARES] {
-            sum += f64::from(*pairs) * of_share;
-            of_share = add(of_share, step);
-        }
-        // Half a step back from the last, which all of the cube is half a step beyond.
-        sum += f64::from(overlap.pairs[SHARES]) * (of_share - half) / (1.0 + half);
-        let together = unlit[a] * unlit[b] * sum;
+        let together = unlit[a] * unlit[b] * turned_together(&overlap.pairs, common);
         let cells = [view.patches[a].cell, view.patches[b].cell];
         expected.covariance[cells[0]][cells[1]] += together;
         if a != b {
@@ -103,8 +93,22 @@ pub fn expect(
     expected
 }
 
+/// The sum of exp(share * `common`) - 1 over pairs of pixels, counted by share in `pairs`.
+pub(crate) fn turned_together(pairs: &[u32; SHARES + 1], common: f64) -> f64 {
+    // exp(x + y) - 1 of exp(x) - 1 and exp(y) - 1: shares are half a step apart.
+    let add = |x: f64, y: f64| x + y + x * y;
+    let half = exp_m1(0.5 * common / SHARES as f64);
+    let (step, mut of_share, mut sum) = (add(half, half), half, 0.0);
+    for pairs in &pairs[..SHARES] {
+        sum += f64::from(*pairs) * of_share;
+        of_share = add(of_share, step);
+    }
+    // A whole cube is half a step less than what comes after the last.
+    sum + f64::from(pairs[SHARES]) * (of_share - half) / (1.0 + half)
+}
+
 /// exp(x) - 1: by its series where x is small, as nearly always, which takes a fraction of the time.
-pub(crate) fn exp_m1(x: f64) -> f64 {
+fn exp_m1(x: f64) -> f64 {
     if x > 1.0 / 32.0 {
         return x.exp_m1();
     }

@@ -13,8 +13,9 @@ use variants::variation::Variation;
 use super::{EXPECTATIONS, observed, positions_of, records};
 use crate::expected::{Expected, fit_size};
 use crate::judge_list::{Judgment, SIGNIFICANCE, judge};
+use crate::limits::view::SHARES;
 use crate::observation::CountsByPlace;
-use crate::picture::expected::exp_m1;
+use crate::picture::expected::turned_together;
 use crate::places::Place;
 use crate::signature::{Signature, Signatures, classes, measure};
 use crate::statistics::{corrected, normal_tail};
@@ -233,10 +234,17 @@ fn corrections_and_tails_are_the_textbooks() {
 }
 
 #[test]
-fn the_series_of_small_numbers_has_their_digits() {
+fn pairs_of_pixels_are_summed_by_their_shares() {
     for at in 0..2000 {
-        let x = f64::from(at) / 32_000.0;
-        assert!((exp_m1(x) - x.exp_m1()).abs() <= 1e-15 * x.exp_m1(), "{x}");
+        let common = f64::from(at * at) * 1e-5;
+        for bin in 0..=SHARES {
+            let mut pairs = [0; SHARES + 1];
+            pairs[bin] = 3;
+            let share = if bin < SHARES { (bin as f64 + 0.5) / SHARES as f64 } else { 1.0 };
+            let expected = 3.0 * (share * common).exp_m1();
+            let sum = turned_together(&pairs, common);
+            assert!((sum - expected).abs() <= 1e-13 * expected, "{common} {bin}");
+        }
     }
 }
 
