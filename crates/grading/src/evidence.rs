@@ -1,5 +1,7 @@
 //! What a submission shows, list or picture, as the one judge takes it: counts in cells.
 
+use std::cell::LazyCell;
+
 use super::expected::{Expected, Groups, fit_size, size_with_total};
 use super::kept::{Known, SignatureTable};
 use super::limits::LEAST_DEVIATIONS;
@@ -36,12 +38,12 @@ pub(crate) trait Evidence {
     fn means(&self, known: &Known<Self::Signature>, emitted: f64) -> Vec<f64>;
     /// What is expected of the cells.
     fn expect_cells(&self, known: &Known<Self::Signature>, emitted: f64) -> Expected;
-    /// What is expected of the facets, where that of the cells is `cells`.
+    /// What is expected of the facets, where that of the cells is `cells`, if it is needed.
     fn expect_facets(
         &self,
         known: &Known<Self::Signature>,
         emitted: f64,
-        cells: &Expected,
+        cells: &LazyCell<Expected, impl FnOnce() -> Expected>,
     ) -> Expected;
     /// Whether nothing but the counts can rule `hypothesis` out.
     fn may_be(&self, hypothesis: &Hypothesis) -> bool;
@@ -79,7 +81,7 @@ pub(crate) trait Evidence {
     fn joined(&self) -> Joined {
         let reference = &self.table().fair[0];
         let emitted = self.fit_size(reference);
-        let cells = self.expect_cells(reference, emitted);
+        let cells = LazyCell::new(|| self.expect_cells(reference, emitted));
         let facets = self.expect_facets(reference, emitted, &cells);
         let alike = vec![0; facets.mean.len()];
         Joined {

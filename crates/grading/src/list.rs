@@ -1,5 +1,7 @@
 //! A photon list as evidence: its photons, counted by place.
 
+use std::cell::LazyCell;
+
 use super::bounces::of_each_bounce;
 use super::evidence::{Evidence, Words};
 use super::expected::Expected;
@@ -83,7 +85,12 @@ impl Evidence for OfList<'_> {
         known.signature.of_cells(&signatures.correlation, &places.leeway_of_cells(), emitted)
     }
 
-    fn expect_facets(&self, known: &Known<Signature>, emitted: f64, _: &Expected) -> Expected {
+    fn expect_facets(
+        &self,
+        known: &Known<Signature>,
+        emitted: f64,
+        _: &LazyCell<Expected, impl FnOnce() -> Expected>,
+    ) -> Expected {
         known.signature.of_classes(emitted)
     }
 

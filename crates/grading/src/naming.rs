@@ -1,5 +1,7 @@
 //! Which misreading explains what a submission shows?
 
+use std::cell::LazyCell;
+
 use super::evidence::{Evidence, Joined};
 use super::kept::Known;
 use super::limits::{
@@ -101,7 +103,7 @@ fn hold_against<E: Evidence>(
     let is_free = number.is_none();
     let of_facets = joined.facets.sums(&evidence.of_facets());
     let held = |emitted| {
-        let cells = evidence.expect_cells(known, emitted);
+        let cells = LazyCell::new(move || evidence.expect_cells(known, emitted));
         let facets = evidence.expect_facets(known, emitted, &cells);
         let facets = facets.grouped(&joined.facets).law(is_free).fit(&of_facets);
         (cells, facets.p_value)
@@ -174,7 +176,7 @@ fn elsewhere<E: Evidence>(evidence: &E, joined: &Joined, best: &Explanation) -> 
     let is_best = |known: &&Known<E::Signature>| known.hypothesis.key() == best.hypothesis.key();
     let Some(known) = table.faults().find(is_best) else { return 0.0 };
     let is_free = evidence.emitted().is_none();
-    let cells = evidence.expect_cells(known, best.emitted);
+    let cells = LazyCell::new(|| evidence.expect_cells(known, best.emitted));
     let others = table.faults().filter(|other| other.hypothesis.id != best.hypothesis.id);
     let others = others.chain(&table.fair);
     let others = others.map(|other| {

@@ -40,6 +40,8 @@ pub struct FacetCells {
     pub corners: [DVec3; 4],
     /// The unit normal of its plane, on the side of the model's normal.
     pub normal: DVec3,
+    /// For each edge, which way leads out of the facet, in its plane.
+    outward: [DVec3; 4],
     /// Into how many cells each side is divided.
     pub divisions: usize,
     /// The number of its first cell.
@@ -82,23 +84,16 @@ impl FacetCells {
 
     /// The distance from `point` to the facet.
     pub fn distance(&self, point: DVec3) -> f64 {
-        let height = self.height(point);
-        let mut is_inside = true;
-        let mut to_edge = f64::INFINITY;
-        for corner in 0..4 {
-            let (a, b) = (self.corners[corner], self.corners[(corner + 1) % 4]);
-            let outward = (b - a).cross(self.normal) * self.turn();
-            is_inside &= outward.dot(point - a) <= 0.0;
-            let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-            to_edge = to_edge.min(point.distance(a + along * (b - a)));
+        let is_within = |(outward, a): (&DVec3, &DVec3)| outward.dot(point - *a) <= 0.0;
+        if self.outward.iter().zip(&self.corners).all(is_within) {
+            return self.height(point).abs();
         }
-        if is_inside { height.abs() } else { to_edge }
-    }
-
-    /// 1 when the corners run counterclockwise about the normal, else -1.
-    fn turn(&self) -> f64 {
-        let [a, b, c, _] = self.corners;
-        (b - a).cross(c - b).dot(self.normal).signum()
+        let to_edge = |corner: usize| {
+            let (a, b) = (self.corners[corner], self.corners[(corner + 1) % 4]);
+            let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+            point.distance(a + along * (b - a))
+        };
+        (0..4).map(to_edge).fold(f64::INFINITY, f64::min)
     }
 
     /// Which cell `point` is in.
@@ -126,12 +121,15 @@ impl Places {
             let d = world(second.vertices[2]);
             let plane = (c - a).cross(d - b).normalize();
             let normal = plane * plane.dot(first.normal.as_dvec3()).signum();
+            let turn = (b - a).cross(c - b).dot(normal).signum();
+            let outward = [b - a, c - b, d - c, a - d].map(|edge| edge.cross(normal) * turn);
             let longest = a.distance(b).max(a.distance(d));
             let divisions = if longest > LARGE { CELLS_OF_LARGE } else { CELLS_OF_SMALL };
             facets.push(FacetCells {
                 surface: first.parent_mesh_object,
                 corners: [a, b, c, d],
                 normal,
+                outward,
                 divisions,
                 first_cell: cells,
             });

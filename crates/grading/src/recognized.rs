@@ -52,9 +52,10 @@ pub(crate) fn not_recognized<E: Evidence>(
         );
         return Some(finding.weighing(Weight::Fault));
     }
-    let apart = to_nearest(evidence);
+    let limit = if is_crowded { CROWDED } else { MADE_UP };
+    let apart = to_nearest(evidence, limit);
     let on_one = evidence.of_facets().into_iter().fold(0.0, f64::max) / on_cells.max(1.0);
-    let found = if apart > if is_crowded { CROWDED } else { MADE_UP } {
+    let found = if apart > limit {
         format!("{:.0} % of the {unit} lie where nothing that is known leaves them", 100.0 * apart)
     } else if on_one > ONE_SURFACE {
         format!("{:.0} % of the {unit} lie on one surface, where light reaches all", 100.0 * on_one)
@@ -64,7 +65,8 @@ pub(crate) fn not_recognized<E: Evidence>(
             return (!is_named).then(|| too_few_without_name(unit, places));
         }
         let uneven = to_even(evidence);
-        if uneven >= EVEN || uneven + MORE_EVEN >= apart {
+        let even_enough = uneven + MORE_EVEN;
+        if uneven >= EVEN || to_nearest(evidence, even_enough) <= even_enough {
             return None;
         }
         format!("{unit} that lie evenly all over the surfaces, as no light leaves them")
@@ -97,17 +99,23 @@ fn too_few_without_name(unit: &str, places: f64) -> Finding {
 }
 
 /// The part of the counts that would have to move until they are as the nearest hypothesis leaves
-/// them, fair or not: all that are in no cell too.
-fn to_nearest<E: Evidence>(evidence: &E) -> f64 {
+/// them, fair or not: all that are in no cell too. Or the part that is no more than `enough`, for
+/// any hypothesis: nobody asks for the nearest then, and there are hundreds.
+fn to_nearest<E: Evidence>(evidence: &E, enough: f64) -> f64 {
     let counts = evidence.of_cells();
     let (found, strays) = (counts.iter().sum::<f64>(), evidence.strays());
     let table = evidence.table();
-    let to_each = table.fair.iter().chain(table.faults()).map(|known| {
+    let part = |moved: f64| (moved + strays) / (found + strays);
+    let mut nearest = part(found);
+    for known in table.fair.iter().chain(table.faults()) {
+        if nearest <= enough {
+            break;
+        }
         let means = |emitted| evidence.means(known, emitted);
         let emitted = size_with_total(found, |emitted| means(emitted).iter().sum());
-        to_move(counts, &means(emitted))
-    });
-    (to_each.fold(found, f64::min) + strays) / (found + strays)
+        nearest = nearest.min(part(to_move(counts, &means(emitted))));
+    }
+    nearest
 }
 
 /// The same until they are even all over each facet.

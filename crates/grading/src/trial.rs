@@ -1,5 +1,7 @@
 //! The tests of a submission against the fair readings.
 
+use std::cell::LazyCell;
+
 use super::evidence::{Evidence, Joined};
 use super::expected::{Expected, Groups};
 use super::kept::Known;
@@ -64,9 +66,12 @@ impl Trial {
 pub(crate) fn best_trial<E: Evidence>(evidence: &E) -> Trial {
     let joined = evidence.joined();
     let reference = attempt(evidence, &joined, 0);
-    let others = (1..evidence.table().fair.len()).map(|at| attempt(evidence, &joined, at));
-    let best = others.max_by(|a, b| a.p_value.total_cmp(&b.p_value));
-    match best.filter(|best| best.p_value > reference.p_value) {
+    let mut best: Option<Trial> = None;
+    for reading in (1..evidence.table().fair.len()).rev() {
+        let least = best.as_ref().unwrap_or(&reference).p_value;
+        best = attempt_above(evidence, &joined, reading, least).or(best);
+    }
+    match best {
         Some(best) if best.p_value >= SIGNIFICANCE => best,
         Some(best) => {
             let p_values = best.tests.iter().map(|test| test.p_value);
@@ -81,16 +86,27 @@ pub(crate) fn best_trial<E: Evidence>(evidence: &E) -> Trial {
 /// Holds `evidence` against one fair reading: by the shares of its places alone, and, where the
 /// number of photons is known, by their numbers as well. Each of both parts decides alone, so that
 /// what is rejected without the number is rejected with it.
-pub(crate) fn attempt<E: Evidence>(evidence: &E, joined: &Joined, reading: usize) -> Trial {
+fn attempt<E: Evidence>(evidence: &E, joined: &Joined, reading: usize) -> Trial {
+    attempt_above(evidence, joined, reading, -1.0).expect("no chance is below zero")
+}
+
+/// The same, if its chance is larger than `least`: what is not as soon as its places are tested
+/// needs no test of every way to a misreading, which takes the most time.
+pub(crate) fn attempt_above<E: Evidence>(
+    evidence: &E,
+    joined: &Joined,
+    reading: usize,
+    least: f64,
+) -> Option<Trial> {
     let known = &evidence.table().fair[reading];
     let fitted = evidence.fit_size(known);
-    let mut tests = part(evidence, joined, known, fitted, true);
+    let mut tests = part(evidence, joined, known, fitted, true, least)?;
     if let Some(p_value) = evidence.of_few(reading) {
         let facets = tests.iter_mut().filter(|test| test.check == E::WORDS.facets[0]);
         facets.for_each(|facets| facets.p_value = facets.p_value.min(p_value));
     }
     if let Some(emitted) = evidence.emitted() {
-        let mut with_number = part(evidence, joined, known, emitted, false);
+        let mut with_number = part(evidence, joined, known, emitted, false, least)?;
         for test in &mut with_number {
             if let Some(other) = tests.iter().find(|other| other.check == test.check) {
                 test.p_value = test.p_value.min(other.p_value);
@@ -98,26 +114,29 @@ pub(crate) fn attempt<E: Evidence>(evidence: &E, joined: &Joined, reading: usize
         }
         tests = with_number;
     }
-    Trial {
+    let p_value = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
+    (p_value > least).then(|| Trial {
         reading,
-        p_value: tests.iter().map(|test| test.p_value).fold(1.0, f64::min),
+        p_value,
         tests,
         emitted: evidence.emitted().unwrap_or(fitted),
         groups: joined.cells.count,
-    }
+    })
 }
 
-/// The tests of one part, for `emitted` photons or, if that is free, about as many.
+/// The tests of one part, for `emitted` photons or, if that is free, about as many; nothing where
+/// one of the first has a chance of at most `least`.
 fn part<E: Evidence>(
     evidence: &E,
     joined: &Joined,
     known: &Known<E::Signature>,
     emitted: f64,
     is_free: bool,
-) -> Vec<Test> {
+    least: f64,
+) -> Option<Vec<Test>> {
     let words = E::WORDS;
     let of_facets = evidence.of_facets();
-    let cells = evidence.expect_cells(known, emitted);
+    let cells = LazyCell::new(|| evidence.expect_cells(known, emitted));
     let facets = evidence.expect_facets(known, emitted, &cells);
     let unit = words.unit;
     let mut tests = Vec::new();
@@ -160,6 +179,9 @@ fn part<E: Evidence>(
     // The three look at everything, and share one error rate.
     let count = tests.len();
     tests.iter_mut().for_each(|test| test.p_value = corrected(test.p_value, count));
+    if tests.iter().any(|test| test.p_value <= least) {
+        return None;
+    }
     // Whose way it is says little: the one that explains all is named for the whole.
     let shows = |it: &&Known<E::Signature>| can_show(&it.hypothesis, evidence.table().max_bounces);
     let others = evidence.table().misreadings.iter().filter(shows);
@@ -175,7 +197,7 @@ fn part<E: Evidence>(
         p_value,
         found: format!("{unit} lean {farthest:.1} standard deviations towards one of them"),
     });
-    tests
+    Some(tests)
 }
 
 /// Of `ways` to misreadings, each with how many deviations the counts have gone on it and how many

@@ -1,5 +1,7 @@
 //! A picture as evidence: its red pixels, counted by place.
 
+use std::cell::LazyCell;
+
 use super::expectations::PictureExpectations;
 use super::expected::{expect, means};
 use super::signature::PictureSignature;
@@ -95,7 +97,12 @@ impl Evidence for OfPicture<'_> {
         expected
     }
 
-    fn expect_facets(&self, _: &Known<PictureSignature>, _: f64, cells: &Expected) -> Expected {
+    fn expect_facets(
+        &self,
+        _: &Known<PictureSignature>,
+        _: f64,
+        cells: &LazyCell<Expected, impl FnOnce() -> Expected>,
+    ) -> Expected {
         cells.grouped(&self.by_facet())
     }
 

@@ -7,7 +7,7 @@ use crate::evidence::Evidence;
 use crate::expected::bisect;
 use crate::limits::expected::SIZES;
 use crate::limits::{FEW_EMITTED, FEW_RED, FEWEST_GROUPS, FEWEST_RED, SIGNIFICANCE};
-use crate::trial::{Trial, attempt};
+use crate::trial::{Trial, attempt_above};
 use photon_mapping::rendering::photon_mapping_renderer::PHOTON_DOT_RADIUS;
 
 impl OfPicture<'_> {
@@ -24,17 +24,18 @@ impl OfPicture<'_> {
         let is_enough = |trial: &Trial| self.emitted.is_some() || trial.emitted >= FEW_EMITTED;
         let is_short = self.counts.iter().sum::<f64>() < FEW_RED;
         let can_fail = |trial: &Trial| is_short || trial.groups >= FEWEST_GROUPS;
-        let attempts = (0..self.table().fair.len()).flat_map(|reading| {
-            let attempt = move |standoff| {
+        let mut best: Option<(Trial, f64)> = None;
+        for reading in (0..self.table().fair.len()).rev() {
+            for standoff in self.standoffs(reading).into_iter().rev() {
                 let coverage = coverage(self.view, &self.expectations.places, standoff);
                 let off = Self { coverage, ..*self };
-                (attempt(&off, &off.joined(), reading), standoff)
-            };
-            self.standoffs(reading).into_iter().map(attempt)
-        });
-        let off = attempts.filter(|(trial, _)| is_enough(trial) && can_fail(trial));
-        let best = off.max_by(|(a, _), (b, _)| a.p_value.total_cmp(&b.p_value));
-        best.filter(|(trial, _)| trial.p_value >= SIGNIFICANCE)
+                let least = best.as_ref().map_or(SIGNIFICANCE.next_down(), |(it, _)| it.p_value);
+                let trial = attempt_above(&off, &off.joined(), reading, least);
+                let trial = trial.filter(|trial| is_enough(trial) && can_fail(trial));
+                best = trial.map(|trial| (trial, standoff)).or(best);
+            }
+        }
+        best
     }
 
     /// The numbers of red pixels on facets that are askew to all axes, and on others.

@@ -13,7 +13,9 @@ use variants::variation::Variation;
 use super::{EXPECTATIONS, observed, positions_of, records};
 use crate::expected::{Expected, fit_size};
 use crate::judge_list::{Judgment, SIGNIFICANCE, judge};
+use crate::limits::view::SHARES;
 use crate::observation::CountsByPlace;
+use crate::picture::expected::turned_together;
 use crate::places::Place;
 use crate::signature::{Signature, Signatures, classes, measure};
 use crate::statistics::{corrected, normal_tail};
@@ -229,6 +231,21 @@ fn corrections_and_tails_are_the_textbooks() {
     assert!((corrected(0.05, 2) - 0.0975).abs() < 1e-12);
     assert!((corrected(1e-20, 10) / 1e-19 - 1.0).abs() < 1e-9);
     assert!((corrected(1.0, 3) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn pairs_of_pixels_are_summed_by_their_shares() {
+    for at in 0..2000 {
+        let common = f64::from(at * at) * 1e-5;
+        for bin in 0..=SHARES {
+            let mut pairs = [0; SHARES + 1];
+            pairs[bin] = 3;
+            let share = if bin < SHARES { (bin as f64 + 0.5) / SHARES as f64 } else { 1.0 };
+            let expected = 3.0 * (share * common).exp_m1();
+            let sum = turned_together(&pairs, common);
+            assert!((sum - expected).abs() <= 1e-13 * expected, "{common} {bin}");
+        }
+    }
 }
 
 #[test]
