@@ -101,7 +101,7 @@ fn too_few_without_name(unit: &str, places: f64) -> Finding {
 /// The part of the counts that would have to move until they are as the nearest hypothesis leaves
 /// them, fair or not: all that are in no cell too. Or the part that is no more than `enough`, for
 /// any hypothesis: nobody asks for the nearest then, and there are hundreds.
-fn to_nearest<E: Evidence>(evidence: &E, enough: f64) -> f64 {
+pub(crate) fn to_nearest<E: Evidence>(evidence: &E, enough: f64) -> f64 {
     let counts = evidence.of_cells();
     let (found, strays) = (counts.iter().sum::<f64>(), evidence.strays());
     let table = evidence.table();

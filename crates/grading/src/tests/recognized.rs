@@ -10,10 +10,11 @@ use rayon::prelude::*;
 use variants::hypotheses::misreadings;
 use variants::variation::{Simulation, Variation};
 
-use super::EXPECTATIONS;
+use super::{EXPECTATIONS, positions_of, records};
+use crate::list::OfList;
 use crate::picture::judge::judge_dots;
 use crate::picture::view::PIXELS;
-use crate::recognized::{RECOGNIZABLE, RECOGNIZED, TELLING, scored_as};
+use crate::recognized::{RECOGNIZABLE, RECOGNIZED, TELLING, scored_as, to_nearest};
 use crate::submission::{Settings, Submission, grade_list};
 use crate::verdict::{Finding, Grade, Verdict};
 
@@ -88,6 +89,19 @@ fn every_misreading_keeps_its_points() {
         })
         .collect();
     assert!(lost.is_empty(), "{lost:?}");
+}
+
+#[test]
+fn of_all_hypotheses_the_nearest_counts() {
+    for id in ["not-transformed", "inverted-roulette"] {
+        let hypothesis =
+            misreadings().into_iter().find(|it| it.id == id).expect("it is in the table");
+        let observation = positions_of(&records(hypothesis.variation, 8, 200_000));
+        let expectations = &*EXPECTATIONS;
+        let evidence = OfList { observation: &observation, emitted: None, expectations };
+        let (nearest, enough) = (to_nearest(&evidence, 0.0), to_nearest(&evidence, 0.9));
+        assert!(4.0 * nearest < enough, "{id}: {nearest} {enough}");
+    }
 }
 
 #[test]
