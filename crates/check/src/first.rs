@@ -10,8 +10,8 @@ use crate::workshop::Workshop;
 const DEEPEST: u32 = 16;
 
 impl Workshop<'_> {
-    /// The header of ours to read before `file`: GCC takes no other one as somebody compiled it, and
-    /// what was compiled elsewhere may do anything to the compiler.
+    /// The header of ours to read before `file`: GCC takes no other one as somebody compiled it,
+    /// and what was compiled elsewhere may do anything to the compiler.
     pub(crate) fn header_before(&self, file: &Path) -> &'static str {
         if self.reads_common_first(file, DEEPEST) { COMMON } else { NOTHING }
     }

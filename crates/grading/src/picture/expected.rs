@@ -107,7 +107,8 @@ pub(crate) fn turned_together(pairs: &[u32; SHARES + 1], common: f64) -> f64 {
     sum + f64::from(pairs[SHARES]) * (of_share - half) / (1.0 + half)
 }
 
-/// exp(x) - 1: by its series where x is small, as nearly always, which takes a fraction of the time.
+/// exp(x) - 1: by its series where x is small, as nearly always, which takes a fraction of the
+/// time.
 fn exp_m1(x: f64) -> f64 {
     if x > 1.0 / 32.0 {
         return x.exp_m1();
