@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::kit::{COMMON, NOTHING};
 use crate::workshop::Workshop;
 
-/// Headers include each other so deeply at most.
+/// How many headers deep common.h is looked for.
 const DEEPEST: u32 = 16;
 
 impl Workshop<'_> {

@@ -17,7 +17,7 @@ use crate::kept::{kept, make_whole, remove_unused, users_folder};
 pub(crate) const STANDARD: &str = "-std=gnu++11";
 /// What nearly all files read first, and takes most of the time: the standard headers, and glm.
 pub(crate) const COMMON: &str = "standin/common/common.h";
-/// What is read in its place.
+/// What other files read first: nothing.
 pub(crate) const NOTHING: &str = "harness/first.hpp";
 /// The sources of the harness. The first is compiled anew for submissions that replace a header of
 /// the framework.

@@ -66,7 +66,9 @@ fn smallest(records: &[PhotonRecord], size: f32) -> Vec<u64> {
             if kept.len() > KEPT {
                 kept.pop_last();
             }
-            if let (KEPT, Some(last)) = (kept.len(), kept.last()) {
+            if kept.len() == KEPT
+                && let Some(last) = kept.last()
+            {
                 largest = *last;
             }
         }
@@ -103,7 +105,7 @@ fn shared(a: &[u64], b: &[u64]) -> SharedParts {
         [a, b].into_iter().filter(|hashes| hashes.len() >= KEPT).filter_map(|hashes| hashes.last());
     let end = end.min().copied().unwrap_or(u64::MAX);
     let [a, b] = [a, b].map(|hashes| &hashes[..hashes.partition_point(|hash| *hash <= end)]);
-    // Both are in order, and a class has many pairs.
+    // Both are in ascending order.
     let (mut both, mut at) = (0, 0);
     for hash in a {
         while at < b.len() && b[at] < *hash {

@@ -1,6 +1,7 @@
 //! What a submission shows, list or picture, as the one judge takes it: counts in cells.
 
 use std::cell::LazyCell;
+use std::ops::Deref;
 
 use super::expected::{Expected, Groups, fit_size, size_with_total};
 use super::kept::{Known, SignatureTable};
@@ -38,12 +39,13 @@ pub(crate) trait Evidence {
     fn means(&self, known: &Known<Self::Signature>, emitted: f64) -> Vec<f64>;
     /// What is expected of the cells.
     fn expect_cells(&self, known: &Known<Self::Signature>, emitted: f64) -> Expected;
-    /// What is expected of the facets, where that of the cells is `cells`, if it is needed.
+    /// What is expected of the facets, where that of the cells is `cells`, which may be made only
+    /// when it is asked for.
     fn expect_facets(
         &self,
         known: &Known<Self::Signature>,
         emitted: f64,
-        cells: &LazyCell<Expected, impl FnOnce() -> Expected>,
+        cells: &impl Deref<Target = Expected>,
     ) -> Expected;
     /// Whether nothing but the counts can rule `hypothesis` out.
     fn may_be(&self, hypothesis: &Hypothesis) -> bool;

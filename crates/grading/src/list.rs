@@ -1,6 +1,6 @@
 //! A photon list as evidence: its photons, counted by place.
 
-use std::cell::LazyCell;
+use std::ops::Deref;
 
 use super::bounces::of_each_bounce;
 use super::evidence::{Evidence, Words};
@@ -89,7 +89,7 @@ impl Evidence for OfList<'_> {
         &self,
         known: &Known<Signature>,
         emitted: f64,
-        _: &LazyCell<Expected, impl FnOnce() -> Expected>,
+        _: &impl Deref<Target = Expected>,
     ) -> Expected {
         known.signature.of_classes(emitted)
     }

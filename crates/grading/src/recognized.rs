@@ -99,8 +99,8 @@ fn too_few_without_name(unit: &str, places: f64) -> Finding {
 }
 
 /// The part of the counts that would have to move until they are as the nearest hypothesis leaves
-/// them, fair or not: all that are in no cell too. Or the part that is no more than `enough`, for
-/// any hypothesis: nobody asks for the nearest then, and there are hundreds.
+/// them, fair or not: all that are in no cell too. A hypothesis for which no more than `enough`
+/// would have to move ends the search, for there are hundreds.
 pub(crate) fn to_nearest<E: Evidence>(evidence: &E, enough: f64) -> f64 {
     let counts = evidence.of_cells();
     let (found, strays) = (counts.iter().sum::<f64>(), evidence.strays());

@@ -87,11 +87,11 @@ pub(crate) fn best_trial<E: Evidence>(evidence: &E) -> Trial {
 /// number of photons is known, by their numbers as well. Each of both parts decides alone, so that
 /// what is rejected without the number is rejected with it.
 fn attempt<E: Evidence>(evidence: &E, joined: &Joined, reading: usize) -> Trial {
-    attempt_above(evidence, joined, reading, -1.0).expect("no chance is below zero")
+    attempt_above(evidence, joined, reading, -1.0).expect("no p-value is below zero")
 }
 
-/// The same, if its chance is larger than `least`: what is not as soon as its places are tested
-/// needs no test of every way to a misreading, which takes the most time.
+/// The same, or nothing if its p-value is at most `least`. The tests of all ways to misreadings
+/// take the longest, and are left out where an earlier test has decided.
 pub(crate) fn attempt_above<E: Evidence>(
     evidence: &E,
     joined: &Joined,
@@ -124,8 +124,8 @@ pub(crate) fn attempt_above<E: Evidence>(
     })
 }
 
-/// The tests of one part, for `emitted` photons or, if that is free, about as many; nothing where
-/// one of the first has a chance of at most `least`.
+/// The tests of one part, for `emitted` photons or, if that is free, about as many. Nothing if one
+/// of the first has a p-value of at most `least`.
 fn part<E: Evidence>(
     evidence: &E,
     joined: &Joined,

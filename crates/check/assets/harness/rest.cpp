@@ -1,4 +1,5 @@
-// What no header of a student's changes, in one unit: glm is read once.
+// What no header of a student's changes, in one unit: glm is read once. The first begins with
+// common.h, which may be precompiled.
 #include "scene.cpp"
 
 #include "around.cpp"

@@ -1,6 +1,6 @@
 //! A picture as evidence: its red pixels, counted by place.
 
-use std::cell::LazyCell;
+use std::ops::Deref;
 
 use super::expectations::PictureExpectations;
 use super::expected::{expect, means};
@@ -101,7 +101,7 @@ impl Evidence for OfPicture<'_> {
         &self,
         _: &Known<PictureSignature>,
         _: f64,
-        cells: &LazyCell<Expected, impl FnOnce() -> Expected>,
+        cells: &impl Deref<Target = Expected>,
     ) -> Expected {
         cells.grouped(&self.by_facet())
     }
