@@ -224,6 +224,20 @@ fn positions_off_the_surface_are_fair_until_no_dot_is_left() {
 }
 
 #[test]
+fn positions_off_the_surface_excuse_no_misreading() {
+    let hypothesis = misread("uniform-hemisphere", 3).expect("it is known");
+    for standoff in [2.0e-3, 2.6e-3] {
+        let red = simulate(hypothesis.variation, 39, 100_000, standoff);
+        for emitted in [Some(100_000), None] {
+            let judgment = judge(&red, emitted);
+            assert!(judgment.is_incorrect(), "{standoff}: {judgment:?}");
+            let mut checks = judgment.findings.iter().map(|finding| finding.check);
+            assert!(!checks.any(|check| check == "off the surfaces"), "{standoff}: {judgment:?}");
+        }
+    }
+}
+
+#[test]
 fn dots_of_other_kinds_are_found_and_remarked() {
     let view = &expectations().view;
     let red = simulate(Variation::default(), 37, MILLION, 0.0);
