@@ -5,13 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::WRITTEN;
-use super::folder::{Found, has_extension, is_of_camera, within};
+use super::folder::{Found, has_extension, is_called_a_list, is_of_camera, within};
+use super::looks::{Looks, MOST_ENTRIES, Seen, Spent};
 pub use super::names::{is_litter, student_in};
 use super::names::{is_own_file, is_part};
 use crate::written::is_own;
-use grading::picture::kinds::{self, Kind, kind};
 use grading::text::printable;
-use photon_list::reader::{Look, look};
+use photon_list::reader::Look;
 
 /// What lies in a folder itself.
 #[derive(Default)]
@@ -27,10 +27,12 @@ struct Children {
     hidden: Vec<PathBuf>,
     /// What this program wrote.
     own: Vec<PathBuf>,
+    /// Too many to look at, and called like no list or picture.
+    unseen: Vec<PathBuf>,
 }
 
 impl Children {
-    fn of(folder: &Path) -> Self {
+    fn of(folder: &Path, looks: &mut Looks) -> Self {
         let mut children = Self::default();
         let mut paths: Vec<PathBuf> = fs::read_dir(folder)
             .into_iter()
@@ -39,27 +41,37 @@ impl Children {
             .filter(|path| !is_litter(path))
             .collect();
         paths.sort();
+        let mut spent = Spent::default();
         for path in paths {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let start = || kinds::start(&path).unwrap_or_default();
             let place = if name.starts_with('.') {
                 &mut children.hidden
             } else if path.is_symlink() || is_called_packed(&path) {
                 &mut children.others
-            } else if is_own(&path) {
+            } else if path.is_dir() && is_own(&path) {
                 &mut children.own
             } else if path.is_dir() {
                 &mut children.folders
             } else if !path.is_file() {
                 &mut children.rest
-            } else if matches!(kind(&start(), &path), Some(Kind::Picture(_))) {
+            } else if let Some(seen) = looked_at(&path, &mut spent, looks) {
+                match seen {
+                    Seen::Own => &mut children.own,
+                    Seen::Picture => &mut children.pictures,
+                    Seen::Text(Look::List) => &mut children.lists,
+                    Seen::Text(Look::Unlikely) => &mut children.unlikely,
+                    _ if is_called_a_list(&path) => &mut children.unlikely,
+                    Seen::Packed(_) | Seen::Document | Seen::Text(Look::Other) => {
+                        &mut children.rest
+                    }
+                }
+            // Each submission is read later, within limits of its own.
+            } else if is_called_a_list(&path) {
+                &mut children.lists
+            } else if has_extension(&path, &["png"]) {
                 &mut children.pictures
             } else {
-                match look(&path).unwrap_or(Look::Other) {
-                    Look::List => &mut children.lists,
-                    Look::Other if !has_extension(&path, &["csv", "ply"]) => &mut children.rest,
-                    Look::Unlikely | Look::Other => &mut children.unlikely,
-                }
+                &mut children.unseen
             };
             place.push(path);
         }
@@ -85,6 +97,16 @@ impl Children {
     }
 }
 
+/// What the file `path` looks like, if there is something left to be `spent`.
+fn looked_at(path: &Path, spent: &mut Spent, looks: &mut Looks) -> Option<Seen> {
+    (!spent.is_all()).then(|| {
+        let seen = looks.keep(path).unwrap_or(Seen::Text(Look::Other));
+        spent.add_entry();
+        spent.add_bytes(path, seen);
+        seen
+    })
+}
+
 /// Spreadsheets and documents are packed too, but are not called so.
 fn is_called_packed(path: &Path) -> bool {
     has_extension(path, &["zip", "gz", "tgz", "xz", "7z", "rar", "bz2", "zst", "tar"])
@@ -104,51 +126,54 @@ pub struct StudentsIn {
 /// The class in `folder`, or at the end of a chain of single folders in it, if it is one: it has no
 /// list or picture itself, but at least two folders that are not called like parts of a submission
 /// have, together more than one submission can. `Err` names both readings where it could be either.
-pub fn class_in(folder: &Path) -> Result<Option<StudentsIn>, String> {
-    let (inner, is_wrapped) = innermost(folder);
-    match is_class(&inner)? {
-        Some(_) if is_wrapped => Err(both_readings(&inner)),
+pub fn class_in(folder: &Path, looks: &mut Looks) -> Result<Option<StudentsIn>, String> {
+    let (inner, is_wrapped) = innermost(folder, looks);
+    match is_class(&inner, looks)? {
+        Some(_) if is_wrapped => Err(both_readings(&inner, looks)),
         class => Ok(class),
     }
 }
 
 /// The class `folder`, which the grader has called one.
-pub fn unwrapped(folder: &Path) -> StudentsIn {
-    let inner = || innermost(folder).0;
-    let folder = match class_in(folder) {
+pub fn unwrapped(folder: &Path, looks: &mut Looks) -> StudentsIn {
+    let folder = match class_in(folder, looks) {
         Ok(Some(class)) => return StudentsIn { classes: Vec::new(), ..class },
-        Err(_) if Children::of(&inner()).folders.is_empty() => inner(),
-        Ok(None) | Err(_) => folder.to_owned(),
+        Ok(None) => folder.to_owned(),
+        Err(_) => {
+            let (inner, _) = innermost(folder, looks);
+            let has_folders = !Children::of(&inner, looks).folders.is_empty();
+            if has_folders { folder.to_owned() } else { inner }
+        }
     };
     StudentsIn { folder, ..StudentsIn::default() }
 }
 
 /// Where a chain of single folders from `folder` ends, and whether the names or files on the way
 /// are those of a submission.
-fn innermost(folder: &Path) -> (PathBuf, bool) {
+fn innermost(folder: &Path, looks: &mut Looks) -> (PathBuf, bool) {
     const LONGEST_CHAIN: usize = 6;
     let (mut inner, mut is_of_submission) = (folder.to_owned(), false);
     for _ in 0..LONGEST_CHAIN {
-        let Children { folders, others, lists, unlikely, pictures, rest, hidden: _, own: _ } =
-            Children::of(&inner);
+        let Children { folders, others, lists, unlikely, pictures, rest, unseen, .. } =
+            Children::of(&inner, looks);
         let has_own = [others, lists, unlikely, pictures].iter().any(|paths| !paths.is_empty());
         let [only] = folders.as_slice() else { break };
         if has_own {
             break;
         }
-        is_of_submission |= !rest.is_empty() || is_part(only);
+        is_of_submission |= !rest.is_empty() || !unseen.is_empty() || is_part(only);
         inner = only.clone();
     }
     (inner, is_of_submission)
 }
 
-fn is_class(folder: &Path) -> Result<Option<StudentsIn>, String> {
-    let children = Children::of(folder);
+fn is_class(folder: &Path, looks: &mut Looks) -> Result<Option<StudentsIn>, String> {
+    let children = Children::of(folder, looks);
     let own = children.students();
     let Children { folders, lists, unlikely, pictures, .. } = children;
     let has_own = [&lists, &unlikely, &pictures].iter().any(|paths| !paths.is_empty());
     let named: Vec<&PathBuf> = folders.iter().filter(|path| !is_part(path)).collect();
-    let search = |path: &&PathBuf| Some((path.to_path_buf(), Found::search(path).ok()?));
+    let search = |path: &&PathBuf| Some((path.to_path_buf(), Found::search(path, looks).ok()?));
     let found: BTreeMap<PathBuf, Found> = named.iter().filter_map(search).collect();
     let students: Vec<_> = found.iter().filter(|(_, found)| found.is_something()).collect();
     let sum =
@@ -165,21 +190,21 @@ fn is_class(folder: &Path) -> Result<Option<StudentsIn>, String> {
     let is_class = match students.len() {
         0 if exported.len() > 1 && is_exported => true,
         0 if own.len() > 1 && (stems.len() > 2 || exported.len() > 1) => {
-            return Err(both_readings(folder));
+            return Err(both_readings(folder, looks));
         }
         0 => false,
-        _ if has_own && own.len() > 1 => return Err(both_readings(folder)),
+        _ if has_own && own.len() > 1 => return Err(both_readings(folder, looks)),
         1 if has_own || named.len() == 1 => false,
         // Beside its own list or picture, other pictures are those of a program.
         2.. if has_own && sum(|found| found.lists.len()) == 0 => false,
-        2.. if classes.len() == students.len() => return Err(both_readings(&classes[0])),
+        2.. if classes.len() == students.len() => return Err(both_readings(&classes[0], looks)),
         2.. if !has_own
             && (sum(|found| found.lists.len() + found.unlikely.len()) > 1
                 || sum(|found| found.pictures.len()) > 1) =>
         {
             true
         }
-        _ => return Err(both_readings(folder)),
+        _ => return Err(both_readings(folder, looks)),
     };
     Ok(is_class.then(|| StudentsIn { folder: folder.to_owned(), classes, found }))
 }
@@ -205,8 +230,8 @@ fn stem(path: &Path) -> String {
 }
 
 /// What `folder` could be: one submission or a class.
-pub fn both_readings(folder: &Path) -> String {
-    let children = Children::of(folder);
+pub fn both_readings(folder: &Path, looks: &mut Looks) -> String {
+    let children = Children::of(folder, looks);
     let folders = children.folders.iter().filter(|path| !is_part(path)).cloned();
     let students: Vec<PathBuf> = folders.chain(children.students().into_values()).collect();
     let names: Vec<String> = students.iter().take(3).map(|path| within(path, folder)).collect();
@@ -221,8 +246,8 @@ pub fn both_readings(folder: &Path) -> String {
 }
 
 /// The submissions of the class `folder`, and what in it is none.
-pub fn students(folder: &Path) -> (Vec<PathBuf>, Vec<String>) {
-    let children = Children::of(folder);
+pub fn students(folder: &Path, looks: &mut Looks) -> (Vec<PathBuf>, Vec<String>) {
+    let children = Children::of(folder, looks);
     let mut students =
         [children.folders, children.others, children.lists, children.unlikely, children.pictures]
             .concat();
@@ -230,7 +255,12 @@ pub fn students(folder: &Path) -> (Vec<PathBuf>, Vec<String>) {
     let hidden = left_out(folder, &children.hidden, "names with a dot are no submissions");
     let rest = left_out(folder, &children.rest, "no list, picture or folder");
     let own = left_out(folder, &children.own, WRITTEN);
-    (students, [hidden, rest, own].into_iter().flatten().collect())
+    let too_much = format!(
+        "there are more than {MOST_ENTRIES} files in it, or far too much to read, and these, \
+         called like no list or picture, were not looked at"
+    );
+    let unseen = left_out(folder, &children.unseen, &too_much);
+    (students, [hidden, rest, own, unseen].into_iter().flatten().collect())
 }
 
 /// That of the class `folder` these `paths` are no submissions, and why; none if there are none.

@@ -9,17 +9,14 @@ use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 use super::WRITTEN;
 use super::contents::same_contents;
+use super::looks::{Looks, MOST_ENTRIES, Seen, Spent};
 use super::names::is_litter;
-use crate::written::is_own_start;
-use grading::picture::kinds::{self, Kind, kind};
+use grading::picture::kinds;
 use grading::text::printable;
-use photon_list::reader::{LONGEST_START, Look, look};
+use photon_list::reader::Look;
 
-/// So many files and levels of a folder are searched: the course's framework has 4,433 and 9.
-const MOST_ENTRIES: usize = 10_000;
+/// So many levels of a folder are searched: the course's framework has 9.
 const MOST_LEVELS: usize = 6;
-/// So many bytes are read to see which files are lists.
-const MOST_LOOKED_AT: u64 = 100_000_000;
 /// A folder with more names than this in it is not sorted.
 const MOST_NAMES: usize = 1_000_000;
 /// So many files are named in one note.
@@ -46,9 +43,7 @@ pub struct Found {
     hidden: Vec<PathBuf>,
     /// Those of them that have a list or a picture.
     hidden_submissions: Vec<PathBuf>,
-    /// How many files there are, and how many bytes of them were read.
-    entries: usize,
-    looked_at: u64,
+    spent: Spent,
 }
 
 /// The list and the picture of a folder.
@@ -57,24 +52,23 @@ pub type Choice = (Option<PathBuf>, Option<PathBuf>);
 impl Found {
     /// What is in `folder`, the highest levels first, and of each level what is called like a list
     /// or a picture.
-    pub fn search(folder: &Path) -> io::Result<Self> {
+    pub fn search(folder: &Path, looks: &Looks) -> io::Result<Self> {
         let mut found = Self::default();
-        found.search_below(folder)?;
+        found.search_below(folder, looks)?;
         let root = fs::canonicalize(folder)?;
         found.hidden.sort();
         for path in found.hidden.clone() {
-            if found.looked_at > MOST_LOOKED_AT {
+            if found.spent.has_all_bytes() {
                 break;
             }
             // Within what is left of the same limits.
-            let Self { entries, looked_at, .. } = found;
-            let mut inner = Self { entries, looked_at, ..Self::default() };
+            let mut inner = Self { spent: found.spent, ..Self::default() };
             let mut folders = Vec::new();
-            let mut searched = inner.sort(&path, folder, &root, &mut folders);
+            let mut searched = inner.sort(&path, folder, &root, &mut folders, looks);
             if let [hidden] = folders.as_slice() {
-                searched = inner.search_below(hidden);
+                searched = inner.search_below(hidden, looks);
             }
-            (found.entries, found.looked_at) = (inner.entries, inner.looked_at);
+            found.spent = inner.spent;
             if searched.is_ok() && inner.is_something() {
                 found.hidden_submissions.push(path);
             }
@@ -82,7 +76,7 @@ impl Found {
         Ok(found)
     }
 
-    fn search_below(&mut self, folder: &Path) -> io::Result<()> {
+    fn search_below(&mut self, folder: &Path, looks: &Looks) -> io::Result<()> {
         let found = self;
         let root = fs::canonicalize(folder)?;
         let mut level = vec![folder.to_owned()];
@@ -101,17 +95,17 @@ impl Found {
                     Ok(names) => names,
                 };
                 for name in names {
-                    if found.entries == MOST_ENTRIES || found.looked_at > MOST_LOOKED_AT {
+                    if found.spent.is_all() {
                         is_cut = true;
                         break;
                     }
-                    found.entries += 1;
+                    found.spent.add_entry();
                     let path = inner.join(&name);
                     if name.to_string_lossy().starts_with('.') {
                         found.hidden.push(path);
                         continue;
                     }
-                    if let Err(error) = found.sort(&path, folder, &root, &mut next) {
+                    if let Err(error) = found.sort(&path, folder, &root, &mut next, looks) {
                         found.is_partial |= error.kind() != io::ErrorKind::NotFound;
                         let name = within(&path, folder);
                         found.notes.push(format!("{name} cannot be read: {error}"));
@@ -136,6 +130,7 @@ impl Found {
         folder: &Path,
         root: &Path,
         folders: &mut Vec<PathBuf>,
+        looks: &Looks,
     ) -> io::Result<()> {
         let of_file = fs::symlink_metadata(path)?.file_type();
         if of_file.is_symlink() {
@@ -149,33 +144,29 @@ impl Found {
         } else if !of_file.is_file() {
             self.notes.push(format!("{} is neither a file nor a folder", within(path, folder)));
         } else {
-            let start = kinds::start(path)?;
+            let seen = looks.at(path)?;
+            self.spent.add_bytes(path, seen);
             let path = path.to_owned();
-            match kind(&start, &path) {
-                _ if is_own_start(&start) => {
+            match seen {
+                Seen::Own => {
                     let name = within(&path, folder);
                     self.notes.push(format!("left out: {name}: {WRITTEN}"));
                 }
-                Some(Kind::Packed(kind)) => {
+                Seen::Packed(kind) => {
                     let name = within(&path, folder);
                     self.notes.push(format!("{name} is packed ({kind}): unpack it first"));
                 }
-                Some(Kind::Picture(_)) => self.pictures.push(path),
-                Some(Kind::Document(_)) => self.documents.push(path),
-                None => match self.look(&path)? {
-                    Look::List => self.lists.push(path),
-                    Look::Unlikely => self.unlikely.push(path),
-                    Look::Other if is_called_a_list(&path) => self.would_be_lists.push(path),
-                    Look::Other => {}
-                },
+                Seen::Picture => self.pictures.push(path),
+                Seen::Document => self.documents.push(path),
+                Seen::Text(Look::List) => self.lists.push(path),
+                Seen::Text(Look::Unlikely) => self.unlikely.push(path),
+                Seen::Text(Look::Other) if is_called_a_list(&path) => {
+                    self.would_be_lists.push(path);
+                }
+                Seen::Text(Look::Other) => {}
             }
         }
         Ok(())
-    }
-
-    fn look(&mut self, path: &Path) -> io::Result<Look> {
-        self.looked_at += fs::metadata(path)?.len().min(LONGEST_START);
-        look(path)
     }
 
     /// Whether there is anything that a student may have handed in.
@@ -262,7 +253,7 @@ fn is_usual(path: &Path) -> bool {
     ["photons", "assignment8"].iter().any(|usual| stem == *usual)
 }
 
-fn is_called_a_list(path: &Path) -> bool {
+pub fn is_called_a_list(path: &Path) -> bool {
     has_extension(path, &["csv", "ply"])
 }
 

@@ -3,6 +3,7 @@
 pub mod class;
 pub mod contents;
 mod folder;
+mod looks;
 mod names;
 
 use std::collections::{BTreeMap, HashMap};
@@ -17,6 +18,7 @@ use grading::picture::kinds::{self, Kind};
 use grading::picture::reading::MOST_BYTES;
 use grading::submission::Submission;
 use grading::text::printable;
+use looks::Looks;
 use names::is_litter;
 
 use crate::written::is_own;
@@ -77,9 +79,10 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
     collected.own = left_out.into_iter().filter(|path| is_own(path)).cloned().collect();
     let note = |path: &PathBuf| format!("{}: left out: {WRITTEN}", path.display());
     collected.notes.extend(collected.own.iter().map(note));
+    let mut looks = Looks::default();
     let class_in = |path: &&PathBuf| match folders {
-        Folders::Class if path.is_dir() => Ok(Some(class::unwrapped(path))),
-        Folders::Clear if path.is_dir() => class::class_in(path),
+        Folders::Class if path.is_dir() => Ok(Some(class::unwrapped(path, &mut looks))),
+        Folders::Clear if path.is_dir() => class::class_in(path, &mut looks),
         _ => Ok(None),
     };
     let classes: Vec<Result<Option<StudentsIn>, String>> = paths.iter().map(class_in).collect();
@@ -90,10 +93,10 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
         match class {
             // A student who hands in folders with others' names is no class.
             Ok(Some(class)) if folders == Folders::Clear && !are_all => {
-                collected.ambiguous.push(class::both_readings(&class.folder));
+                collected.ambiguous.push(class::both_readings(&class.folder, &mut looks));
             }
             Ok(Some(class)) => {
-                let (students, mut notes) = class::students(&class.folder);
+                let (students, mut notes) = class::students(&class.folder, &mut looks);
                 all.extend(students.into_iter().map(|student| (student, true)));
                 collected.notes.append(&mut notes);
                 collected.classes.push(class.folder);
@@ -104,13 +107,15 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
             Err(why) => collected.ambiguous.push(why),
         }
     }
-    let from = |(path, is_of_class): &(PathBuf, bool)| from(path, *is_of_class, found.remove(path));
+    let from = |(path, is_of_class): &(PathBuf, bool)| {
+        from(path, *is_of_class, found.remove(path), &looks)
+    };
     let mut handed_in: Vec<HandedIn> = all.iter().map(from).collect();
     let paths: Vec<PathBuf> = all.into_iter().map(|(path, _)| path).collect();
     for (one, path) in handed_in.iter_mut().zip(&paths) {
         // It costs the others nothing, and gets a grade that says so.
         if is_class_itself.contains(path) {
-            let why = class::both_readings(path);
+            let why = class::both_readings(path, &mut Looks::default());
             one.problem = Some(why.clone());
             collected.ambiguous.push(why);
         }
@@ -129,7 +134,7 @@ pub fn collect(paths: &[PathBuf], folders: Folders) -> Collected {
 }
 
 /// The submission at `path`, in which this has been `found` if it is a folder that was searched.
-fn from(path: &Path, is_of_class: bool, found: Option<Found>) -> HandedIn {
+fn from(path: &Path, is_of_class: bool, found: Option<Found>, looks: &Looks) -> HandedIn {
     let handed_in = if is_of_class && path.is_symlink() {
         // It may lead to another student's files, or anywhere.
         HandedIn {
@@ -137,7 +142,7 @@ fn from(path: &Path, is_of_class: bool, found: Option<Found>) -> HandedIn {
             ..HandedIn::default()
         }
     } else if path.is_dir() {
-        match found.map_or_else(|| Found::search(path), Ok) {
+        match found.map_or_else(|| Found::search(path, looks), Ok) {
             Ok(found) => from_folder(path, found),
             Err(error) => unread(&error),
         }
