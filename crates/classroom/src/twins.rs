@@ -59,8 +59,14 @@ impl Fingerprint {
 fn smallest(records: &[PhotonRecord], size: f32) -> Vec<u64> {
     let mut kept = BTreeSet::new();
     let mut largest = u64::MAX;
-    for record in records.iter().filter(|record| record.position.is_finite()) {
-        let hash = hash(record.position, size);
+    let mut before = Vec3::NAN;
+    for record in records {
+        // Lists of one place, again and again, are long.
+        if record.position == before || !record.position.is_finite() {
+            continue;
+        }
+        before = record.position;
+        let hash = hash(before, size);
         if hash <= largest {
             kept.insert(hash);
             if kept.len() > KEPT {

@@ -145,9 +145,15 @@ fn without_unit(name: &str) -> (&str, Option<&str>) {
 
 /// The place in [`COLUMNS`] of what `position.x`, `intensity[0]` or `toLightRay.direction.z` names.
 fn of_a_vector(name: &str) -> Option<usize> {
+    let is_left_out = |letter: char| ":._[]()- ".contains(letter);
+    // Most columns of a wide list end otherwise.
+    let end = name.trim_end_matches(is_left_out).chars().next_back()?.to_ascii_lowercase();
+    if !"xyzrgb012".contains(end) {
+        return None;
+    }
     let name = name.to_ascii_lowercase();
     let name: String =
-        name.trim_start_matches("photon").chars().filter(|c| !":._[]()- ".contains(*c)).collect();
+        name.trim_start_matches("photon").chars().filter(|letter| !is_left_out(*letter)).collect();
     VECTORS.iter().enumerate().find_map(|(vector, (stems, letters))| {
         let mut stems = stems.iter();
         let rest = stems.find_map(|stem| name.strip_prefix(stem).filter(|rest| rest.len() == 1))?;
