@@ -2,7 +2,7 @@
 
 use super::limits::{BY_ROUNDING, FEW_PLACES, MOST_NEIGHBORS, SAME_PLACE};
 use super::places::Place;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use photon_mapping::photon_list::PhotonRecord;
 
 /// Positions that come more than once, to the last bit.
@@ -77,14 +77,17 @@ pub(super) fn repeats(records: &[PhotonRecord], located: &[Place]) -> Vec<Repeat
         .map(|(index, _)| (position(index).dot(way), index))
         .collect();
     sweep.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    // In one piece: those abreast may stand anywhere in the list.
+    let swept: Vec<Vec3> =
+        sweep.iter().map(|(_, index)| records[*index as usize].position).collect();
     let mut repeats = vec![Repeat::No; records.len()];
     for (at, (along, index)) in sweep.iter().enumerate() {
-        let abreast = sweep[at + 1..].iter().take(MOST_NEIGHBORS);
-        let near = abreast.take_while(|other| other.0 - along <= SAME_PLACE);
-        let distance = |other: u32| position(other).distance_squared(position(*index));
+        let abreast = sweep.iter().zip(&swept).skip(at + 1).take(MOST_NEIGHBORS);
+        let near = abreast.take_while(|(other, _)| other.0 - along <= SAME_PLACE);
+        let position = swept[at].as_dvec3();
         let mut closest = f64::INFINITY;
         for (_, other) in near {
-            closest = closest.min(distance(*other));
+            closest = closest.min(other.as_dvec3().distance_squared(position));
             if closest == 0.0 {
                 break;
             }
