@@ -250,27 +250,32 @@ fn page_of_the_default_run_is_small_and_quick() {
     let Some(browser) = launch(true) else { return };
     browser.open(path, "#photon=73&bounce=0&step=emission");
     let first = float(&browser.run("page.firstFrame"));
-    // Other tests run at once, so the quickest counts: of five, or of those of two seconds if none
-    // of the five takes at most the 50 ms of both targets.
-    let quickest = |action: &str| {
+    // Generous beside the targets of 1500 ms, 20 frames/s and 50 ms: other tests run at once. For
+    // the same reason the quickest of five tries counts, or of more on a machine so busy that none
+    // of them keeps within the limit, in milliseconds.
+    const MOST_TO_FIRST: f64 = 6000.0;
+    const MOST_FOR_FRAME: f64 = 200.0;
+    const MOST_FOR_CLICK: f64 = 250.0;
+    let quickest = |action: &str, limit: f64| {
         float(&browser.run(&format!(
             "(() => {{ const v = page.view, times = [], start = performance.now(); while \
-             (times.length < 5 || (Math.min(...times) > 50 && performance.now() < start + 2000)) \
-             {{ const before = performance.now(); {action}; v.drawNow(); v.finish(); \
+             (times.length < 5 || (Math.min(...times) >= {limit} && performance.now() < start + \
+             30000)) {{ const before = performance.now(); {action}; v.drawNow(); v.finish(); \
              times.push(performance.now() - before); }} return Math.min(...times); }})()"
         )))
     };
     // A frame of all dots while the camera turns, waited for.
-    let frames = 1000.0 / quickest("v.camera.yaw += 0.02; v.moved = -Infinity");
-    let click = quickest("page.open([253, 73][times.length % 2], 0, 'hit')");
-    eprintln!(
-        "page {size} bytes, first frame {first:.0} ms, {frames:.0} frames/s, a click to its path \
-         and story {click:.1} ms"
+    let frame = quickest("v.camera.yaw += 0.02; v.moved = -Infinity", MOST_FOR_FRAME);
+    let click = quickest("page.open([253, 73][times.length % 2], 0, 'hit')", MOST_FOR_CLICK);
+    let measured = format!(
+        "page {size} bytes, first frame {first:.0} ms, {:.0} frames/s, a click to its path and \
+         story {click:.1} ms",
+        1000.0 / frame
     );
-    // Generous beside the targets of 1500 ms, 20 frames/s and 50 ms: other tests run at once.
+    eprintln!("{measured}");
     assert!(
-        first < 6000.0 && frames > 5.0 && click < 250.0,
-        "{first} ms, {frames} frames/s, {click} ms"
+        first < MOST_TO_FIRST && frame < MOST_FOR_FRAME && click < MOST_FOR_CLICK,
+        "{measured}"
     );
     browser.has_been_quiet();
 }
