@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::WRITTEN;
 use super::folder::{Found, has_extension, is_called_a_list, is_of_camera, within};
-use super::looks::{Looks, MOST_ENTRIES, Seen, Spent};
+use super::looks::{Looks, LooksLike, MOST_ENTRIES, Spent};
 pub use super::names::{is_litter, student_in};
 use super::names::{is_own_file, is_part};
 use crate::written::is_own;
@@ -56,12 +56,12 @@ impl Children {
                 &mut children.rest
             } else if let Some(seen) = looked_at(&path, &mut spent, looks) {
                 match seen {
-                    Seen::Own => &mut children.own,
-                    Seen::Picture => &mut children.pictures,
-                    Seen::Text(Look::List) => &mut children.lists,
-                    Seen::Text(Look::Unlikely) => &mut children.unlikely,
+                    LooksLike::Own => &mut children.own,
+                    LooksLike::Picture => &mut children.pictures,
+                    LooksLike::Text(Look::List) => &mut children.lists,
+                    LooksLike::Text(Look::Unlikely) => &mut children.unlikely,
                     _ if is_called_a_list(&path) => &mut children.unlikely,
-                    Seen::Packed(_) | Seen::Document | Seen::Text(Look::Other) => {
+                    LooksLike::Packed(_) | LooksLike::Document | LooksLike::Text(Look::Other) => {
                         &mut children.rest
                     }
                 }
@@ -98,9 +98,9 @@ impl Children {
 }
 
 /// What the file `path` looks like, if there is something left to be `spent`.
-fn looked_at(path: &Path, spent: &mut Spent, looks: &mut Looks) -> Option<Seen> {
+fn looked_at(path: &Path, spent: &mut Spent, looks: &mut Looks) -> Option<LooksLike> {
     (!spent.is_all()).then(|| {
-        let seen = looks.keep(path).unwrap_or(Seen::Text(Look::Other));
+        let seen = looks.keep(path).unwrap_or(LooksLike::Text(Look::Other));
         spent.add_entry();
         spent.add_bytes(path, seen);
         seen

@@ -9,7 +9,7 @@ use photon_mapping::assignment8::{HEIGHT, WIDTH};
 
 use super::WRITTEN;
 use super::contents::same_contents;
-use super::looks::{Looks, MOST_ENTRIES, Seen, Spent};
+use super::looks::{Looks, LooksLike, MOST_ENTRIES, Spent};
 use super::names::is_litter;
 use grading::picture::kinds;
 use grading::text::printable;
@@ -148,22 +148,22 @@ impl Found {
             self.spent.add_bytes(path, seen);
             let path = path.to_owned();
             match seen {
-                Seen::Own => {
+                LooksLike::Own => {
                     let name = within(&path, folder);
                     self.notes.push(format!("left out: {name}: {WRITTEN}"));
                 }
-                Seen::Packed(kind) => {
+                LooksLike::Packed(kind) => {
                     let name = within(&path, folder);
                     self.notes.push(format!("{name} is packed ({kind}): unpack it first"));
                 }
-                Seen::Picture => self.pictures.push(path),
-                Seen::Document => self.documents.push(path),
-                Seen::Text(Look::List) => self.lists.push(path),
-                Seen::Text(Look::Unlikely) => self.unlikely.push(path),
-                Seen::Text(Look::Other) if is_called_a_list(&path) => {
+                LooksLike::Picture => self.pictures.push(path),
+                LooksLike::Document => self.documents.push(path),
+                LooksLike::Text(Look::List) => self.lists.push(path),
+                LooksLike::Text(Look::Unlikely) => self.unlikely.push(path),
+                LooksLike::Text(Look::Other) if is_called_a_list(&path) => {
                     self.would_be_lists.push(path);
                 }
-                Seen::Text(Look::Other) => {}
+                LooksLike::Text(Look::Other) => {}
             }
         }
         Ok(())

@@ -16,7 +16,7 @@ const MOST_LOOKED_AT: u64 = 100_000_000;
 
 /// What a file looks like.
 #[derive(Clone, Copy)]
-pub enum Seen {
+pub enum LooksLike {
     /// This program wrote it.
     Own,
     /// Packed with the program of this name.
@@ -28,35 +28,35 @@ pub enum Seen {
 
 /// What the files of folders look like that are looked at for several reasons.
 #[derive(Default)]
-pub struct Looks(HashMap<PathBuf, Seen>);
+pub struct Looks(HashMap<PathBuf, LooksLike>);
 
 impl Looks {
     /// What the file `path` looks like.
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn at(&self, path: &Path) -> io::Result<Seen> {
-        self.0.get(path).map_or_else(|| seen(path), |seen| Ok(*seen))
+    pub fn at(&self, path: &Path) -> io::Result<LooksLike> {
+        self.0.get(path).map_or_else(|| looks_like(path), |seen| Ok(*seen))
     }
 
     /// The same, which is kept.
-    pub fn keep(&mut self, path: &Path) -> io::Result<Seen> {
+    pub fn keep(&mut self, path: &Path) -> io::Result<LooksLike> {
         let seen = self.at(path)?;
         self.0.insert(path.to_owned(), seen);
         Ok(seen)
     }
 }
 
-fn seen(path: &Path) -> io::Result<Seen> {
+fn looks_like(path: &Path) -> io::Result<LooksLike> {
     #[cfg(test)]
     tests::COUNT.set(tests::COUNT.get() + 1);
     let start = kinds::start(path)?;
     Ok(match kind(&start, path) {
-        _ if is_own_start(&start) => Seen::Own,
-        Some(Kind::Packed(kind)) => Seen::Packed(kind),
-        Some(Kind::Picture(_)) => Seen::Picture,
-        Some(Kind::Document(_)) => Seen::Document,
-        None => Seen::Text(look(path)?),
+        _ if is_own_start(&start) => LooksLike::Own,
+        Some(Kind::Packed(kind)) => LooksLike::Packed(kind),
+        Some(Kind::Picture(_)) => LooksLike::Picture,
+        Some(Kind::Document(_)) => LooksLike::Document,
+        None => LooksLike::Text(look(path)?),
     })
 }
 
@@ -83,8 +83,8 @@ impl Spent {
     }
 
     /// Adds what was read of the file `path`.
-    pub fn add_bytes(&mut self, path: &Path, seen: Seen) {
-        if let Seen::Text(_) = seen {
+    pub fn add_bytes(&mut self, path: &Path, seen: LooksLike) {
+        if let LooksLike::Text(_) = seen {
             self.bytes += fs::metadata(path).map_or(0, |about| about.len().min(LONGEST_START));
         }
     }
