@@ -1,8 +1,9 @@
 //! A deterministic reference of Stanford CS148's Assignment 8, photon mapping.
 //!
-//! This package is the assignment and nothing else. Start with [`assignment8`], then follow a
-//! photon: [`scene::point_light`] emits it, and [`rendering::photon_mapping_renderer`] traces,
-//! stores and shows it. `ASSIGNMENT.md` reads along, section by section.
+//! This package is the assignment and nothing else. Start with
+//! [`rendering::photon_mapping_renderer`], which traces, stores and shows photons.
+//! [`scene::point_light`] emits them, and [`assignment8`] builds the scene. `ASSIGNMENT.md` reads
+//! along, section by section.
 //!
 //! A program that wants the photons alone asks [`trace`] for them:
 //!

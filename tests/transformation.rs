@@ -1,9 +1,11 @@
-//! Hemisphere Ray Transformation: `tangent_frame`.
+//! Hemisphere Ray Transformation: `tangent_frame` and `diffuse_reflection_ray`.
 
-use crate::common::{is_unit, unit_normal};
+use crate::common::{handout, is_unit, light, unit_normal};
 use glam::Vec3;
 use photon_mapping::assignment8;
-use photon_mapping::rendering::sampling::tangent_frame;
+use photon_mapping::random::photon_random;
+use photon_mapping::rendering::sampling::{sample_hemisphere, tangent_frame};
+use photon_mapping::scene::ray::IntersectionState;
 use proptest::prelude::*;
 
 proptest! {
@@ -85,4 +87,28 @@ fn box_sides_keep_the_cosine() {
             assert!((cosine - 0.8).abs() < 3e-7, "{cosine} over {}", side.normal);
         }
     }
+}
+
+#[test]
+fn the_reflected_ray_leaves_in_the_frame_of_its_surface() {
+    let renderer = handout(148, 1);
+    let scene = &renderer.stored_scene;
+    let mut hits = 0;
+    for photon in 0..5000 {
+        let mut rand = photon_random(148, photon);
+        let mut state = IntersectionState::new();
+        if !scene.trace(&light().generate_random_photon_ray(&mut rand), Some(&mut state)) {
+            continue;
+        }
+        hits += 1;
+        let (u1, u2) = (rand(), rand());
+        let direction = renderer.diffuse_reflection_ray(&state, u1, u2).ray_direction();
+        let [t, b, n] = {
+            let frame = tangent_frame(state.compute_normal(scene));
+            [frame.x_axis, frame.y_axis, frame.z_axis]
+        };
+        let in_the_frame = Vec3::new(direction.dot(t), direction.dot(b), direction.dot(n));
+        assert!(in_the_frame.distance(sample_hemisphere(u1, u2)) < 1e-6, "photon {photon}");
+    }
+    assert!(hits > 1000, "{hits}");
 }

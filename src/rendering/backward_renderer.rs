@@ -6,8 +6,9 @@ use crate::scene::Scene;
 use crate::scene::point_light::PointLight;
 use crate::scene::ray::{IntersectionState, Ray};
 
-/// The color at the point of `state`: the diffuse response times the light's color times the
-/// cosine, over all lights in sight. As in the framework, light does not fade with distance.
+/// The color at the point of `state`: the sum, over all lights in sight, of the diffuse response
+/// times the light's color times the cosine. As in the framework, light does not fade with
+/// distance.
 pub fn compute_sample_color(scene: &Scene, state: &IntersectionState) -> Vec3 {
     let mut color = Vec3::ZERO;
     for light in scene.lights() {

@@ -1,4 +1,4 @@
-//! From colors to a picture: C++ `RayTracer::Run` and `ImageWriter`.
+//! From colors to a picture: C++ `ImageWriter`, and the loop over pixels of `RayTracer::Run`.
 
 use glam::Vec3;
 use image::RgbImage;
@@ -15,8 +15,8 @@ pub fn take_picture(
     height: u32,
 ) -> RgbImage {
     RgbImage::from_fn(width, height, |column, row| {
-        let camera_ray = camera_ray(camera, column, row, width, height);
-        image::Rgb(to_bytes(renderer.compute_sample_color(&camera_ray)))
+        let ray = camera_ray(camera, column, row, width, height);
+        image::Rgb(to_bytes(renderer.compute_sample_color(&ray)))
     })
 }
 

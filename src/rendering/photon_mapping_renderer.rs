@@ -157,6 +157,7 @@ impl PhotonMappingRenderer {
         // Hemisphere Ray Transformation
         let normal = state.compute_normal(&self.stored_scene);
         let world_space_direction = tangent_frame(normal) * tangent_space_direction;
+        // The handout names no offset. `spawn_ray` has one, and says why.
         self.stored_scene.spawn_ray(state, world_space_direction.normalize())
     }
 
@@ -174,7 +175,8 @@ impl PhotonMappingRenderer {
         color
     }
 
-    /// The numbers of the photons that each light emits: its part of the brightness of all lights.
+    /// The photons of each light, as a range of their numbers. A light's part of all photons is its
+    /// part of the brightness of all lights.
     ///
     /// As in the framework, a count is truncated and the product is formed in f32. Counts above
     /// 2^24, which f32 cannot tell apart, take f64.

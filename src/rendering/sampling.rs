@@ -1,13 +1,15 @@
-//! Directions over a surface: sampled in tangent space, then turned into world space.
+//! Directions in the hemisphere around a normal: sampled in tangent space, then turned into world
+//! space.
 
 use glam::{Mat3, Vec3};
 
 /// Above this absolute value of the dot product of the normal and the x axis, the frame is built
-/// from the y axis.
+/// from the y axis. Of the scene's normals this is the right wall's alone: the next has 0.96.
 pub const CLOSE_TO_PARALLEL: f32 = 0.99;
 
-/// A unit direction over the z axis, distributed as the cosine of its angle to z (density z / pi
-/// over solid angle), from two numbers in [0, 1). Tangent space; equations (2) to (6).
+/// A unit direction in the hemisphere around the z axis, distributed as the cosine of its angle to
+/// z (density z / pi over solid angle), from two numbers in [0, 1). Tangent space; equations (2) to
+/// (6).
 ///
 /// Its length is 1 up to rounding. `diffuse_reflection_ray` normalizes it after turning it.
 pub fn sample_hemisphere(u1: f32, u2: f32) -> Vec3 {
@@ -30,7 +32,8 @@ pub fn tangent_frame(normal: Vec3) -> Mat3 {
     // absolute value, t and b would be zero there.
     let is_parallel = normal.dot(Vec3::X).abs() > CLOSE_TO_PARALLEL;
     let axis = if is_parallel { Vec3::Y } else { Vec3::X };
-    // The cross product is shorter than 1 unless n is at a right angle to the axis.
+    // The cross product is shorter than 1 unless n is at a right angle to the axis. That of n and t
+    // misses 1 by rounding alone.
     let tangent = normal.cross(axis).normalize();
     let bitangent = normal.cross(tangent).normalize();
     Mat3::from_cols(tangent, bitangent, normal)

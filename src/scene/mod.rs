@@ -87,7 +87,7 @@ impl Scene {
     /// Whether `ray` meets anything before its `max_t`: C++ `Scene::Trace`.
     ///
     /// With a `state`, fills it with the closest hit. Of two triangles at the same distance, the
-    /// first counts. Without a `state`, any hit will do.
+    /// first counts, but a back yields to a front beside it. Without a `state`, any hit will do.
     pub fn trace(&self, ray: &Ray, state: Option<&mut IntersectionState>) -> bool {
         let Some(state) = state else { return self.any_hit(ray) };
         let Some((triangle, t)) = self.closest_hit(ray) else { return false };

@@ -16,6 +16,9 @@ const VECTORS: [(&[&str], [&str; 3]); 3] = [
     (&["tolight", "tolightray", "tolightraydirection"], ["x", "y", "z"]),
 ];
 
+/// What ends the name of a coordinate of any vector.
+const AXES: [[&str; 3]; 2] = [["x", "y", "z"], ["0", "1", "2"]];
+
 /// No name of a column is longer.
 const LONGEST_NAME: usize = 64;
 
@@ -148,7 +151,8 @@ fn of_a_vector(name: &str) -> Option<usize> {
     let is_left_out = |letter: char| ":._[]()- ".contains(letter);
     // Most columns of a wide list end otherwise.
     let end = name.trim_end_matches(is_left_out).chars().next_back()?.to_ascii_lowercase();
-    if !"xyzrgb012".contains(end) {
+    let of_vectors = VECTORS.iter().map(|(_, letters)| letters);
+    if !of_vectors.chain(&AXES).flatten().any(|letter| letter.starts_with(end)) {
         return None;
     }
     let name = name.to_ascii_lowercase();
@@ -157,8 +161,9 @@ fn of_a_vector(name: &str) -> Option<usize> {
     VECTORS.iter().enumerate().find_map(|(vector, (stems, letters))| {
         let mut stems = stems.iter();
         let rest = stems.find_map(|stem| name.strip_prefix(stem).filter(|rest| rest.len() == 1))?;
-        let axis = [letters.as_slice(), &["x", "y", "z"], &["0", "1", "2"]]
-            .iter()
+        let axis = [letters]
+            .into_iter()
+            .chain(&AXES)
             .find_map(|letters| letters.iter().position(|letter| *letter == rest))?;
         Some(3 * vector + axis)
     })

@@ -102,16 +102,19 @@ mod tests {
         pub static COUNT: Cell<usize> = const { Cell::new(0) };
     }
 
+    fn name(at: usize) -> String {
+        format!("student {at}.{}", ["csv", "png", "txt"][at % 3])
+    }
+
     /// What is collected in a class of one `student`, or of single files where that is nothing, and
     /// how often one of the `files` is looked at, of `bytes` each.
     fn collected(student: &str, how: Folders, files: usize, bytes: usize) -> (Collected, usize) {
-        let name = format!("looks-{}-{files}-{how:?}-{student}", std::process::id());
-        let class = std::env::temp_dir().join(name);
+        let own = format!("looks-{}-{files}-{how:?}-{student}", std::process::id());
+        let class = std::env::temp_dir().join(own);
         let folder = class.join(student);
         fs::create_dir_all(&folder).unwrap();
-        let first = folder.join("student 0.csv");
+        let first = folder.join(name(0));
         fs::write(&first, "#".repeat(bytes)).unwrap();
-        let name = |at: usize| format!("student {at}.{}", ["csv", "png", "txt"][at % 3]);
         (1..files).for_each(|at| fs::hard_link(&first, folder.join(name(at))).unwrap());
         COUNT.set(0);
         let collected = collect(std::slice::from_ref(&class), how);
@@ -135,9 +138,16 @@ mod tests {
         let files = most + 300;
         let (collected, count) = collected("", Folders::Class, files, 1 << 16);
         assert_eq!(count, most);
-        let is_csv = |one: &&crate::intake::HandedIn| one.submission.name.ends_with(".csv");
-        let lists = collected.handed_in.iter().filter(is_csv).count();
-        assert_eq!(lists, files.div_ceil(3), "each list gets a grade");
+        let graded = |end: &str| {
+            collected.handed_in.iter().filter(|one| one.submission.name.ends_with(end)).count()
+        };
+        assert_eq!(graded(".csv"), files.div_ceil(3), "each list gets a grade");
+        // Those that were looked at are no pictures.
+        let mut names: Vec<String> = (0..files).map(name).collect();
+        names.sort();
+        let unseen = names[most..].iter().filter(|name| name.ends_with(".png")).count();
+        assert_eq!(graded(".png"), unseen);
+        assert_eq!(graded(".txt"), 0);
         let is_told = |note: &String| note.ends_with("were not looked at");
         assert!(collected.notes.iter().any(is_told), "{:?}", collected.notes);
     }
