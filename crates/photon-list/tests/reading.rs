@@ -154,6 +154,18 @@ fn dialects_of_text() {
 }
 
 #[test]
+fn coordinates_are_known_by_all_their_names() {
+    for intensity in
+        ["intensity.r,intensity.g,intensity.b", "Intensity[0],Intensity[1],Intensity[2]"]
+    {
+        let header = format!("x,y,z,{intensity},toLightRay.x,toLightRay.y,toLightRay.z");
+        let list = read(format!("{header}\n1,2,3,4,5,6,0,0.6,0.8\n")).0.expect("it is a list");
+        assert_eq!(list.records[0].intensity, Vec3::new(4.0, 5.0, 6.0), "{header}");
+        assert_eq!(list.records[0].to_light, Vec3::new(0.0, 0.6, 0.8), "{header}");
+    }
+}
+
+#[test]
 fn encodings() {
     let utf16 = |text: &str, mark: bool, big: bool| -> Vec<u8> {
         let mark = mark.then_some(0xfeff_u16);
