@@ -62,7 +62,7 @@ fn numbers_of_the_expected_values() {
     let deviation = (1e6 * expected.covariance.iter().flatten().sum::<f64>()).sqrt();
     assert_says(
         "README.md",
-        "For the total of this run, these are # and #.",
+        "For the total of this run, whose paths store several photons each, these are # and #.",
         &[deviation, 3.0 * deviation],
     );
     let words = "the standard deviation of the stored total is about #.";
