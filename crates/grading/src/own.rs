@@ -112,5 +112,5 @@ impl Own {
 }
 
 fn cell(position: Vec3) -> [i32; 3] {
-    (position / (2.0 * NEAR)).floor().to_array().map(|cell| cell as i32)
+    (position / (2.0 * NEAR)).floor().to_array().map(|cells| cells as i32)
 }
