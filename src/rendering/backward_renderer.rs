@@ -25,6 +25,7 @@ pub fn compute_sample_color(scene: &Scene, state: &IntersectionState) -> Vec3 {
 pub fn light_towards(scene: &Scene, state: &IntersectionState, light: &PointLight) -> (Ray, Vec3) {
     let hit_mesh_object = &scene.mesh_objects()[state.primitive(scene).parent_mesh_object];
     let diffuse_response = hit_mesh_object.material.base_diffuse_reflection();
+    // The start counts as exact: with a start error, no pixel would change.
     let (start, _) = scene.spawn_point(state);
     let to_light = light.position - start;
     let distance = to_light.length();
