@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Breaks one line of the port at a time, as tests/mutations.txt says, and demands that the tests named
-# there fail. `ASSIGNMENT.md` lists the same tests. Works on a copy; the tree stays as it is.
+# there fail, and no test of another section. Works on a copy; the tree stays as it is.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 copy=$(mktemp -d)
@@ -22,8 +22,10 @@ while IFS='|' read -r file from to test_file tests; do
         echo "$file: expected '$from', found no such text" >&2
         exit 1
     fi
-    # The tests of one section take less time to compile.
-    printf 'mod common;\nmod %s;\n' "$test_file" >"$copy/tests/assignment.rs"
+    # The tests of the whole take long, and fail whatever is broken.
+    modules="emission storage roulette hemisphere transformation"
+    [[ $test_file != whole ]] || modules=whole
+    printf 'mod %s;\n' common $modules >"$copy/tests/assignment.rs"
     printf '%s\n' "${original/"$from"/"$to"}" >"$copy/$file"
     output=$(cd "$copy" && cargo test --quiet --profile dev --test assignment 2>&1 </dev/null) || true
     if grep -q '^error' <<<"$output" && ! grep -q '^test result' <<<"$output"; then
@@ -32,13 +34,16 @@ while IFS='|' read -r file from to test_file tests; do
         exit 1
     fi
     for test in $tests; do
-        grep -q "\`$test\`" "$root/ASSIGNMENT.md" ||
-            { echo "ASSIGNMENT.md: expected the test '$test' in its table" >&2; exit 1; }
         if ! grep -q "^    $test_file::$test\$" <<<"$output"; then
             echo "SURVIVED: $file: '$from' -> '$to': $test did not fail" >&2
             survivors=$((survivors + 1))
         fi
     done
+    others=$(sed -n 's/^    \([a-z]*::[a-z0-9_]*\)$/\1/p' <<<"$output" | grep -v "^$test_file::" | sort -u) || true
+    if [[ -n $others ]]; then
+        echo "ANOTHER SECTION: $file: '$from' -> '$to': failed:" $others >&2
+        survivors=$((survivors + 1))
+    fi
     printf '%s\n' "$original" >"$copy/$file"
 done < <(grep -v '^#' "$root/tests/mutations.txt")
 echo "$mutations mutations, $survivors survivors"

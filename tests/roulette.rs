@@ -1,21 +1,27 @@
 //! Photon Scattering/Absorption: the roulette of `trace_photon`.
 
-use crate::common::{LARGEST_BELOW_ONE, closed_cube, trace_scripted};
+use crate::common::{LARGEST_BELOW_ONE, Traced, closed_cube, trace_scripted};
 use glam::Vec3;
 use photon_mapping::rendering::photon_mapping_renderer::{PathVertex, PhotonMappingRenderer};
 use photon_mapping::scene::ray::Ray;
 use photon_mapping::scene::{Material, MeshObject, Scene};
 
-/// Whether a photon that draws `number` for the roulette scatters at its only hit in `renderer`'s
-/// closed cube. If so, it draws u1 and u2 as well.
-fn scatters(renderer: &PhotonMappingRenderer, number: f32) -> bool {
+const SECTION: &str = "Photon Scattering/Absorption";
+
+/// Traces a photon that draws `numbers` in `renderer`'s closed cube.
+fn trace(renderer: &PhotonMappingRenderer, remaining_bounces: i32, numbers: &[f32]) -> Traced {
     let mut path = vec![PathVertex::Light];
-    let ray = Ray::new(Vec3::ZERO, Vec3::X);
-    let section = "Photon Scattering/Absorption";
-    match trace_scripted(section, renderer, &ray, &mut path, 0, &[number, 0.3, 0.4]).drawn {
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    trace_scripted(SECTION, renderer, &ray, &mut path, remaining_bounces, numbers)
+}
+
+/// Whether a photon that draws `number` for the roulette scatters where it first hits. If so, it
+/// draws u1 and u2 as well.
+fn scatters(renderer: &PhotonMappingRenderer, number: f32) -> bool {
+    match trace(renderer, 1000, &[number, 0.3, 0.4]).drawn {
         1 => false,
         3 => true,
-        drawn => panic!("{section}: expected 1 number drawn, or 3 to scatter; found {drawn}"),
+        drawn => panic!("{SECTION}: expected 1 number drawn, or 3 to scatter; found {drawn}"),
     }
 }
 
@@ -59,4 +65,19 @@ fn p_r_of_zero_absorbs_every_photon() {
 #[test]
 fn p_r_of_one_scatters_every_photon() {
     assert!(scatters(&closed_cube(1.0, 148, 1), LARGEST_BELOW_ONE));
+}
+
+#[test]
+fn one_more_bounce_allowed_is_one_more_hit() {
+    let cube = closed_cube(1.0, 148, 1);
+    // It scatters nearly along the normal, from one wall to the opposite one.
+    let numbers = [0.5, 1e-4, 0.0].repeat(20);
+    let [three, four] = [3, 4].map(|remaining| trace(&cube, remaining, &numbers));
+    if !three.met_blank {
+        assert_eq!(
+            four.drawn,
+            three.drawn + 3,
+            "{SECTION}: one more hit draws three more numbers; none if the new direction is NaN"
+        );
+    }
 }

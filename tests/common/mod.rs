@@ -118,13 +118,15 @@ pub fn path_of_one_hit() -> Vec<PathVertex> {
 pub struct Traced {
     /// What it stored.
     pub stored: Vec<Photon>,
-    /// How many numbers it drew.
+    /// How many of the numbers it drew.
     pub drawn: usize,
+    /// Whether it came to a section that is not written yet.
+    pub met_blank: bool,
 }
 
-/// Lets `trace_photon` trace a photon on `ray` that has passed `path` and then draws `numbers`, and
-/// no more than these. A section after `section` that is not written yet ends the photon, so that
-/// each section can be tested before the next is begun.
+/// Lets `trace_photon` trace a photon on `ray` that has passed `path` and then draws `numbers`. It
+/// ends when they run out, and at a section after `section` that is not written yet. So a section
+/// can be tested before the next is begun, and whatever mistakes the next has.
 pub fn trace_scripted(
     section: &str,
     renderer: &PhotonMappingRenderer,
@@ -133,21 +135,25 @@ pub fn trace_scripted(
     remaining_bounces: i32,
     numbers: &[f32],
 ) -> Traced {
+    struct NumbersRanOut;
     let mut stored = Vec::new();
     let mut drawn = 0;
-    let mut numbers = draws(numbers);
     let mut rand = || {
+        let number = numbers.get(drawn).unwrap_or_else(|| resume_unwind(Box::new(NumbersRanOut)));
         drawn += 1;
-        numbers()
+        *number
     };
     let intensity = Vec3::new(0.25, 0.5, 1.0);
     let traced = catch_unwind(AssertUnwindSafe(|| {
         renderer.trace_photon(&mut stored, ray, intensity, path, remaining_bounces, &mut rand);
     }));
-    match traced {
-        Err(panic) if !is_blank_after(section, &*panic) => resume_unwind(panic),
-        _ => Traced { stored, drawn },
-    }
+    let met_blank = match traced {
+        Ok(()) => false,
+        Err(panic) if panic.is::<NumbersRanOut>() => false,
+        Err(panic) if is_blank_after(section, &*panic) => true,
+        Err(panic) => resume_unwind(panic),
+    };
+    Traced { stored, drawn, met_blank }
 }
 
 /// Whether `panic` is the `todo!` of a section after `section`.
@@ -193,7 +199,7 @@ pub fn uniform() -> impl Strategy<Value = f32> {
     (0_u32..1 << 24).prop_map(|k| k as f32 / 16_777_216.0)
 }
 
-/// The mean of `values`, and by how many standard errors it differs from `expected`.
+/// By how many standard errors the mean of `values` differs from `expected`.
 pub fn standard_errors(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
     let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
     for value in values {

@@ -61,17 +61,25 @@ fn everything_named_exists() {
     assert!(seen > 100, "found only {seen} names");
 }
 
-/// The tests that the table of sections lists are in the file beside them.
+/// The table of sections lists all tests of the file beside them, and each fails when some line is
+/// broken.
 #[test]
-fn tests_of_the_sections_exist() {
-    let page = read("ASSIGNMENT.md");
+fn all_tests_of_the_sections_are_listed_and_broken() {
+    let (page, mutations) = (read("ASSIGNMENT.md"), read("tests/mutations.txt"));
     for section in SECTIONS {
         let row = page.lines().find(|line| line.starts_with(&format!("| {section} |")));
         let names = quoted(row.unwrap_or_else(|| panic!("{section} has no row of tests")));
         let code = read(names[0]);
-        assert!(names.len() > 3, "{section}: {names:?}");
-        for test in &names[1..] {
-            assert!(code.contains(&format!("fn {test}(")), "{} has no '{test}'", names[0]);
+        let after_marks = code.split("#[test]").skip(1);
+        let tests: Vec<_> = after_marks
+            .map(|text| text.split_once("fn ").and_then(|(_, text)| text.split_once('(')))
+            .map(|parts| parts.expect("a function follows").0)
+            .collect();
+        assert!(tests.len() > 3, "{section}: {tests:?}");
+        assert_eq!(names[1..], tests, "{section}");
+        for test in tests {
+            let is_broken = mutations.split_whitespace().any(|word| word == test);
+            assert!(is_broken, "tests/mutations.txt breaks no line for '{test}'");
         }
     }
 }
