@@ -149,9 +149,7 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
         let in_cube = calls(PlanStep::GrayCube);
         if judge_rule(&walls, &mut verdict) {
             judge_later(in_cube, &mut verdict);
-        } else if let [total @ 100..=usize::MAX, count] = counts(in_cube, 2)
-            && may_happen(count, total, 0.5)
-        {
+        } else if is_right_in_cube(in_cube, 2) && !is_right_in_cube(in_cube, 1) {
             let found = "this is so at the first hit of a path alone: later, the roulette is right";
             verdict.remarks.push(found.to_owned());
         }
@@ -165,6 +163,13 @@ pub(super) fn judge(observed: &Observed, told: &mut Vec<String>) -> SectionVerdi
 fn counts(calls: &[Call], hit: usize) -> [usize; 2] {
     let with_hit = || calls.iter().filter(|call| call.hits().count() >= hit);
     [with_hit().count(), with_hit().filter(|call| call.rays() > hit).count()]
+}
+
+/// Whether there are enough calls with a hit number `hit` in the closed cube with P_r = 0.5, and the
+/// right part scatters there. So it does under a wrong rule with the same chance for this gray.
+fn is_right_in_cube(calls: &[Call], hit: usize) -> bool {
+    let [total, count] = counts(calls, hit);
+    total >= 100 && may_happen(count, total, 0.5)
 }
 
 fn judge_rule(walls: &[(Vec3, [usize; 2])], verdict: &mut SectionVerdict) -> bool {

@@ -9,6 +9,7 @@ use variants::section::Section;
 
 use super::cases::{Change, Faults, tells};
 use super::statuses;
+use crate::report::CheckReport;
 
 const HEIGHT: &str = "std::sqrt(1.f - u1)";
 const OTHER_HEIGHT: Faults = &[(Sampling, Some("other-height"))];
@@ -103,4 +104,33 @@ fn mistakes_are_told_under_their_sections() {
     let found: Vec<_> = reports.iter().take(5).map(statuses).collect();
     let expected = ["+++++", "++++~", "+++?x", "+x???", "+?x??"];
     assert!(reports.is_empty() || found == expected, "{found:?}");
+}
+
+/// In the cube with P_r = 0.5, an inverted roulette and the mean give the right chance everywhere.
+#[test]
+fn only_a_roulette_that_is_right_later_gets_the_remark() {
+    const DECIDES: &str = "(float)rand() / RAND_MAX >= pr";
+    let reports = tells(&[
+        (
+            &[(DECIDES, "(float)rand() / RAND_MAX < pr")],
+            &[(Scattering, Some("inverted-roulette"))],
+            "",
+        ),
+        (
+            &[("std::max(d.r, std::max(d.g, d.b))", "(d.r + d.g + d.b) / 3")],
+            &[(Scattering, Some("mean-roulette"))],
+            "",
+        ),
+        (
+            &[(DECIDES, "(float)rand() / RAND_MAX >= pr && path.size() > 1")],
+            &[(Scattering, Some("no-roulette"))],
+            "",
+        ),
+    ]);
+    let remarks = |report: &CheckReport| {
+        let remarks = report.sections.iter().flat_map(|verdict| &verdict.remarks);
+        remarks.filter(|remark| remark.contains("at the first hit of a path alone")).count()
+    };
+    let found: Vec<_> = reports.iter().map(remarks).collect();
+    assert!(reports.is_empty() || found == [0, 0, 1], "{found:?}");
 }
