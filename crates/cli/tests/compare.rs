@@ -205,6 +205,29 @@ fn a_list_of_another_seed_is_called_so() {
     }
 }
 
+/// Whose runs nobody knows. Photons that are all moved are those of the reference.
+#[test]
+fn lists_that_share_no_photon_seem_to_draw_other_numbers() {
+    let folder = folder();
+    let list = |seed: &str| {
+        let out = folder.path().join(seed);
+        let line = "render --format csv --quiet --size 1x1 --photons 20000 --seed {} --out {}";
+        run_line(line, &[Path::new(seed), &out]).success();
+        out.join("photons.csv")
+    };
+    let (left, right) = (list("5"), list("6"));
+    let text = stdout(run_line("compare {} {}", &[&left, &right]).code(1));
+    assert!(text.contains("as if they drew different random numbers"), "{text}");
+    assert!(!text.contains("first divergence"), "{text}");
+    let moved = edited(&left, "moved.csv", |cells| {
+        cells[2] = (cells[2].parse::<f32>().expect("a number") + 0.05).to_string();
+    });
+    let report = json(run_line("compare --json {} {}", &[&left, &moved]).code(1));
+    assert_eq!(report["random_numbers"], "same");
+    assert_eq!(count(&report, "moved"), count(&report, "reference_records"));
+    assert!(report["first_divergence"].is_object(), "{report}");
+}
+
 #[test]
 fn a_ply_list_names_its_run() {
     let folder = folder();

@@ -19,7 +19,7 @@ fn compile(source: &str, folder: &Path) -> Option<PathBuf> {
 }
 
 /// The program `by_the_handout`, compiled once for all tests.
-fn by_the_handout() -> Option<&'static Path> {
+pub fn by_the_handout() -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<(tempfile::TempDir, PathBuf)>> = OnceLock::new();
     let program = PROGRAM.get_or_init(|| {
         let folder = folder();

@@ -9,7 +9,6 @@ use super::alignment::Pairing;
 use super::numbers::thousands;
 use super::position_index::{PositionIndex, is_near};
 use photon_list::reader::PhotonList;
-use photon_mapping::photon_list::PhotonRecord;
 
 /// So many records are tried.
 const PROBES: usize = 200;
@@ -143,38 +142,26 @@ fn photon_shift(reference: &PhotonList, submission: &PhotonList, tolerance: f32)
     shifts.take(10).find(|shift| *shift != 0 && 2 * matched(*shift) > all.len())
 }
 
-/// In how many of the records that both have, 'bounce' and 'surface' differ: they tell nothing
-/// of where a photon is, so the lists may be the same.
-pub fn other_numbers(
+/// In how many of the records that both have, 'bounce' differs: it tells nothing of where a photon
+/// is, so the lists may be the same.
+pub fn other_bounces(
     reference: &PhotonList,
     submission: &PhotonList,
     pairings: &[Pairing],
-) -> Vec<String> {
-    type Told = (&'static str, bool, fn(&PhotonRecord) -> u16, &'static str);
-    let [of_reference, of_submission] = [reference.columns, submission.columns];
-    let told: [Told; 2] = [
-        (
-            "bounce",
-            of_reference.bounce && of_submission.bounce,
-            |record| record.bounce,
-            "counts the bounces made, from 1 on",
-        ),
-        (
-            "surface",
-            of_reference.surface && of_submission.surface,
-            |record| record.surface,
-            "counts the scene's surfaces from 0 on",
-        ),
-    ];
-    let note = |(name, _, number, counts): Told| {
-        let is_other = |pairing: &&Pairing| match **pairing {
-            Pairing::Both(i, j) => number(&reference.records[i]) != number(&submission.records[j]),
-            _ => false,
-        };
-        let other = pairings.iter().filter(is_other).count() as u64;
-        let records = thousands(other);
-        (other > 0)
-            .then(|| format!("'{name}' differs in {records} records: the reference {counts}"))
+) -> Option<String> {
+    if !(reference.columns.bounce && submission.columns.bounce) {
+        return None;
+    }
+    let is_other = |pairing: &&Pairing| match **pairing {
+        Pairing::Both(i, j) => reference.records[i].bounce != submission.records[j].bounce,
+        _ => false,
     };
-    told.into_iter().filter(|(_, is_told, ..)| *is_told).filter_map(note).collect()
+    let other = pairings.iter().filter(is_other).count() as u64;
+    let records = thousands(other);
+    (other > 0).then(|| {
+        format!(
+            "'bounce' differs in {records} records: the reference counts the bounces made, from 1 \
+             on"
+        )
+    })
 }

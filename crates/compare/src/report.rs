@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::alignment::{Pairing, with_bounces};
 use super::compared::Compared;
-use super::conventions::{other_numbers, to_reference};
+use super::conventions::{other_bounces, to_reference};
 use super::differences::{Difference, Differences};
 use super::divergence::{Divergence, Lists};
 use super::explanation::{explain_fairly, has_other_draws};
@@ -31,6 +31,8 @@ const LEFT_BY_READING: f64 = 1e-3;
 const USUAL_BY_ROUNDING: f64 = 1e-4;
 /// So many records of the reference are traced again, to see whether its run is the one named.
 const PROBES: usize = 32;
+/// Fewer records in common tell nothing of the random numbers.
+const FEW_RECORDS: u64 = 20;
 
 const ANOTHER_ORDER: &str = "the same photons in another order";
 
@@ -149,9 +151,9 @@ pub fn compare(
             "the photons are in another order, and were matched by their places"
         });
     }
-    other_numbers(reference, submission, &compared.pairings)
-        .iter()
-        .for_each(|note| report.add_note(note));
+    if let Some(note) = other_bounces(reference, submission, &compared.pairings) {
+        report.add_note(&note);
+    }
     if compared.differing.is_empty() {
         return report;
     }
@@ -161,6 +163,9 @@ pub fn compare(
              --scene, --light) name it, so that the divergence can be explained",
         );
         report.add_divergence(&compared.lists(reference, submission), &compared.differing, None);
+        if report.shares_hardly_a_photon() {
+            report.has_other_numbers(false);
+        }
         return report;
     };
     if !agree {
@@ -268,6 +273,14 @@ impl Report {
         if has_other_draws(&known, &lists) {
             self.has_other_numbers(list.columns.photon);
         }
+    }
+
+    /// Whether the two lists have neither records nor numbers of photons in common, but for what
+    /// chance gives. Wrong positions of the same photons would be moved.
+    fn shares_hardly_a_photon(&self) -> bool {
+        let Differences { matched, moved, .. } = self.differences;
+        let records = self.reference_records.min(self.submission_records);
+        records >= FEW_RECORDS && 100 * matched < records && 10 * moved < records
     }
 
     fn differences_are_few(&self, part: f64, records: u64) -> bool {

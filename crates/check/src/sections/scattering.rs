@@ -165,8 +165,8 @@ fn counts(calls: &[Call], hit: usize) -> [usize; 2] {
     [with_hit().count(), with_hit().filter(|call| call.rays() > hit).count()]
 }
 
-/// Whether there are enough calls with a hit number `hit` in the closed cube with P_r = 0.5, and the
-/// right part scatters there. So it does under a wrong rule with the same chance for this gray.
+/// Whether there are enough calls with a hit number `hit` in the closed cube with P_r = 0.5, and
+/// the right part scatters there. So it does under a wrong rule with the same chance for this gray.
 fn is_right_in_cube(calls: &[Call], hit: usize) -> bool {
     let [total, count] = counts(calls, hit);
     total >= 100 && may_happen(count, total, 0.5)

@@ -1,9 +1,11 @@
 //! The commands that pages show.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use super::markdown::{code_blocks, code_spans};
 use super::{pages, read};
+use crate::interop::by_the_handout;
 use crate::support::{folder, run_line, stdout};
 
 /// Options that pages name of GNU parallel, of the C++ example, and of examples in Rust.
@@ -63,18 +65,26 @@ fn commands_exist() {
     assert!(seen > 30, "found only {seen} commands");
 }
 
-/// Runs the commands of the README's blocks of language `console` in one folder, one after another,
-/// and compares what they print. A line of three dots stands for any lines.
-#[test]
-fn commands_print_what_the_readme_shows() {
-    let folder = folder();
-    let readme = read("README.md");
+/// Runs the commands of `page`'s blocks of language `console` in `folder`, one after another, and
+/// compares what they print. A line of three dots stands for any lines. How many there are.
+fn commands_print_what_is_shown(page: &str, folder: &Path) -> usize {
+    let text = read(page).replace(" \\\n", " ");
     let mut seen = 0;
-    for (_, block) in code_blocks(&readme).iter().filter(|(language, _)| language == "console") {
-        for shown in block.split("$ photon-mapping ").skip(1) {
+    for (_, block) in code_blocks(&text).iter().filter(|(language, _)| language == "console") {
+        for shown in block.split("$ ").skip(1) {
             let (command, output) = shown.split_once('\n').expect("a line");
-            let mut program = assert_cmd::Command::cargo_bin("photon-mapping").expect("is built");
-            let run = program.current_dir(&folder).args(command.split(' ')).assert();
+            let mut words = command.split_whitespace();
+            let mut program = match words.next() {
+                Some("photon-mapping") => {
+                    assert_cmd::Command::cargo_bin("photon-mapping").expect("is built")
+                }
+                Some("./by_the_handout") => match by_the_handout() {
+                    Some(program) => assert_cmd::Command::new(program),
+                    None => return seen,
+                },
+                other => panic!("{page}: {other:?}"),
+            };
+            let run = program.current_dir(folder).args(words).assert();
             let printed = stdout(run);
             let mut rest = printed.as_str();
             for part in output.trim().split("...\n").map(|part| part.trim_end_matches("...")) {
@@ -82,8 +92,21 @@ fn commands_print_what_the_readme_shows() {
                 let place = place.unwrap_or_else(|| panic!("{command}: no\n{part}in\n{printed}"));
                 rest = &rest[place + part.trim_end().len()..];
             }
+            let is_whole = output.trim().ends_with("...") || rest.trim().is_empty();
+            assert!(is_whole, "{page}: {command}: expected\n...\nfor{rest}");
             seen += 1;
         }
     }
-    assert!(seen >= 3, "found only {seen} commands");
+    seen
+}
+
+#[test]
+fn commands_print_what_the_pages_show() {
+    assert!(commands_print_what_is_shown("README.md", folder().path()) >= 3);
+    let folder = folder();
+    run_line("render --quiet --out {}", &[&folder.path().join("out")]).success();
+    for (page, at_least) in [("docs/comparing.md", 7), ("docs/grading.md", 2)] {
+        let seen = commands_print_what_is_shown(page, folder.path());
+        assert!(seen >= at_least || by_the_handout().is_none(), "{page}: {seen} commands");
+    }
 }

@@ -56,7 +56,7 @@ fn power_is_that_of_the_table() {
         let cell = numbers(&row[3]);
         [found + number(&cell[1]), all + 8.0, named + number(&cell[2])]
     });
-    let words = "finds # of # wrong lists by positions and their number, and names # of them";
+    let words = "finds # of # wrong lists by positions and the number emitted, and names # of them";
     assert_says("docs/grading.md", words, &small);
 
     // Of what the best tests find of all misreadings together, how much the judge finds.
