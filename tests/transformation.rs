@@ -33,20 +33,28 @@ proptest! {
     }
 }
 
-/// The largest deviation of the frame over `normal` from an orthonormal, right-handed one, in f64.
-fn frame_error(normal: Vec3) -> f64 {
+/// Checks in f64 that the frame over `normal` is orthonormal and right-handed.
+fn assert_orthonormal(normal: Vec3) {
     let frame = tangent_frame(normal);
     let [t, b, n] = [frame.x_axis, frame.y_axis, frame.z_axis].map(|axis| axis.as_dvec3());
-    [t.length() - 1.0, b.length() - 1.0, t.dot(b), t.dot(n), b.dot(n), (t.cross(b) - n).length()]
-        .into_iter()
-        .map(f64::abs)
-        .fold(0.0, |worst, error| if error <= worst { worst } else { error })
+    let errors = [
+        t.length() - 1.0,
+        b.length() - 1.0,
+        t.dot(b),
+        t.dot(n),
+        b.dot(n),
+        (t.cross(b) - n).length(),
+    ];
+    assert!(
+        errors.iter().all(|error| error.abs() < 3e-7),
+        "n = {normal}: expected unit vectors at right angles with t x b = n; found t = {t}, b = {b}"
+    );
 }
 
 #[test]
 fn normal_exactly_along_x_takes_another_axis() {
     for normal in [Vec3::X, Vec3::NEG_X, Vec3::new(1.0, 1e-23, 0.0), Vec3::new(-1.0, 0.0, 1e-23)] {
-        assert!(frame_error(normal) < 3e-7, "{normal}");
+        assert_orthonormal(normal);
     }
 }
 
@@ -56,7 +64,7 @@ fn normal_next_to_x_has_a_precise_frame() {
         for tilt in [1e-7_f32, -1e-7, 1e-4, 0.1, 0.141, 0.142] {
             let along_x = x * (1.0 - tilt * tilt).sqrt();
             for normal in [Vec3::new(along_x, tilt, 0.0), Vec3::new(along_x, 0.0, tilt)] {
-                assert!(frame_error(normal) < 3e-7, "{normal}");
+                assert_orthonormal(normal);
             }
         }
     }
@@ -78,7 +86,7 @@ fn box_sides_keep_the_cosine() {
     let sides: Vec<_> = sides.filter(|triangle| triangle.normal.x.abs() < 0.97).collect();
     assert_eq!(sides.len(), 8, "two triangles on each of four sides");
     for side in sides {
-        assert!(frame_error(side.normal) < 3e-7);
+        assert_orthonormal(side.normal);
         let frame = tangent_frame(side.normal);
         for (x, y) in [(0.6, 0.0), (0.0, 0.6), (-0.6, 0.0), (0.0, -0.6)] {
             let direction = (frame * Vec3::new(x, y, 0.8)).normalize();
@@ -108,7 +116,10 @@ fn the_reflected_ray_leaves_in_the_frame_of_its_surface() {
         };
         let in_the_frame = Vec3::new(direction.dot(t), direction.dot(b), direction.dot(n));
         let expected = sample_hemisphere(u1, u2).normalize();
-        assert!(in_the_frame.distance(expected) < 1e-6, "photon {photon}");
+        assert!(
+            in_the_frame.distance(expected) < 1e-6,
+            "the reflected ray along t, b and n: expected {expected}, found {in_the_frame}"
+        );
     }
     assert!(hits > 1000, "{hits}");
 }

@@ -1,7 +1,8 @@
 //! Scenes, scripted random numbers and strategies that several tests use.
 
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
 use std::sync::LazyLock;
 
 use glam::Vec3;
@@ -124,11 +125,25 @@ pub struct Traced {
     pub met_blank: bool,
 }
 
+thread_local! {
+    /// The section that is tested: a blank after it is no fault, and nothing is printed of it.
+    static AFTER: Cell<Option<&'static str>> = const { Cell::new(None) };
+}
+
+static QUIET: LazyLock<()> = LazyLock::new(|| {
+    let print = take_hook();
+    set_hook(Box::new(move |panic| {
+        if !AFTER.get().is_some_and(|section| is_blank_after(section, panic.payload())) {
+            print(panic);
+        }
+    }));
+});
+
 /// Lets `trace_photon` trace a photon on `ray` that has passed `path` and then draws `numbers`. It
 /// ends when they run out, and at a section after `section` that is not written yet. So a section
 /// can be tested before the next is begun, and whatever mistakes the next has.
 pub fn trace_scripted(
-    section: &str,
+    section: &'static str,
     renderer: &PhotonMappingRenderer,
     ray: &Ray,
     path: &mut Vec<PathVertex>,
@@ -144,9 +159,12 @@ pub fn trace_scripted(
         *number
     };
     let intensity = Vec3::new(0.25, 0.5, 1.0);
+    *QUIET;
+    AFTER.set(Some(section));
     let traced = catch_unwind(AssertUnwindSafe(|| {
         renderer.trace_photon(&mut stored, ray, intensity, path, remaining_bounces, &mut rand);
     }));
+    AFTER.set(None);
     let met_blank = match traced {
         Ok(()) => false,
         Err(panic) if panic.is::<NumbersRanOut>() => false,
@@ -168,7 +186,7 @@ fn is_blank_after(section: &str, panic: &dyn Any) -> bool {
 /// Numbers for a photon, one after another, as if drawn.
 pub fn draws(numbers: &[f32]) -> impl FnMut() -> f32 {
     let mut numbers = numbers.iter();
-    move || *numbers.next().expect("the photon draws no more numbers than the test gives")
+    move || *numbers.next().expect("expected a result from the numbers given, found a further draw")
 }
 
 /// Whether `vector` has length 1.
@@ -199,8 +217,8 @@ pub fn uniform() -> impl Strategy<Value = f32> {
     (0_u32..1 << 24).prop_map(|k| k as f32 / 16_777_216.0)
 }
 
-/// By how many standard errors the mean of `values` differs from `expected`.
-pub fn standard_errors(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
+/// Checks that the mean of `values`, which are those of `what`, differs from `expected` by chance.
+pub fn assert_mean(values: impl Iterator<Item = f64>, expected: f64, what: &str) {
     let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
     for value in values {
         count += 1.0;
@@ -209,7 +227,11 @@ pub fn standard_errors(values: impl Iterator<Item = f64>, expected: f64) -> f64 
     }
     let mean = sum / count;
     let error = ((squares / count - mean * mean) / count).sqrt();
-    (mean - expected) / error
+    let errors = (mean - expected) / error;
+    assert!(
+        errors.abs() < 4.0,
+        "mean of {what}: expected {expected:.4}, found {mean:.4}, {errors:.1} standard errors off"
+    );
 }
 
 /// By how many standard deviations `count` of `emitted` photons differs from `probability`.
