@@ -25,11 +25,8 @@ fn assert_scatters(renderer: &PhotonMappingRenderer, number: f32, expected: bool
     let mut path = vec![PathVertex::Light];
     let drawn = trace(renderer, &mut path, 1000, &[number, 0.3, 0.4]).drawn;
     let d = renderer.stored_scene.mesh_objects()[0].material.base_diffuse_reflection();
-    assert!(
-        drawn == if expected { 3 } else { 1 },
-        "{SECTION}: at {number}, where the diffuse reflection is {d}, expected 1 number drawn, or 3 \
-         to scatter; scatters: {expected}; found {drawn}"
-    );
+    let (draws, end) = if expected { (3, "scatters") } else { (1, "is absorbed") };
+    assert_eq!(drawn, draws, "{SECTION}: a photon that draws {number} where d = {d} {end}");
 }
 
 /// A closed cube whose walls reflect `diffuse`.

@@ -18,7 +18,7 @@ impl PointLight {
     /// `GenerateRandomPhotonRay`.
     ///
     /// `rand` gives numbers in [0, 1), where the C++ scales the integer of `rand()`. Every try
-    /// draws x, y and z, in this order.
+    /// draws x, y and z, in this order. The center has no direction, and is drawn again.
     pub fn generate_random_photon_ray(&self, rand: &mut impl FnMut() -> f32) -> Ray {
         // Photon Emission
         let direction = loop {

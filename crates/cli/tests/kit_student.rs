@@ -230,6 +230,20 @@ fn gather(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
+/// A loop that accepts no direction ends, nothing is said of a toolkit, and a failing test changes
+/// no golden file.
+#[test]
+fn the_edition_is_made_for_students() {
+    let folder = folder();
+    let starter = edition(folder.path());
+    let read = |file| fs::read_to_string(starter.join(file)).expect("the edition has the file");
+    assert!(read("src/random.rs").contains("assert!(drawn <= 100_000"));
+    let main = read("src/main.rs");
+    assert!(!main.contains("toolkit"));
+    assert_eq!(main.lines().count() + 1, port("src/main.rs").lines().count());
+    assert!(read(".cargo/config.toml").contains("INSTA_UPDATE = { value = \"no\", force = true }"));
+}
+
 #[test]
 fn the_readme_names_what_is_there() {
     let folder = folder();

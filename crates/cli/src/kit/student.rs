@@ -68,7 +68,8 @@ pub fn files() -> Vec<KitFile> {
         KitFile::new("Cargo.toml", manifest(&lock)),
         KitFile::new("Cargo.lock", lock.of("photon-mapping")),
         KitFile::new("README.md", include_str!("../../assets/student/README.md")),
-        KitFile::new(".gitignore", "/target\n/out\n*.snap.new\n*.proptest-regressions\n"),
+        KitFile::new(".gitignore", "/target\n/out\n"),
+        KitFile::new(".cargo/config.toml", include_str!("../../assets/student/config.toml")),
     ];
     for (path, content) in PORT {
         if *path == "Cargo.lock" || is_of_this_project(path) {
@@ -78,10 +79,37 @@ pub fn files() -> Vec<KitFile> {
         let text = of_file.fold(None, |text: Option<String>, blank| {
             Some(leave_blank(text.as_deref().unwrap_or_else(|| port(path)), blank))
         });
+        let text = match *path {
+            "src/random.rs" => Some(with_limit(port(path))),
+            "src/main.rs" => Some(without_toolkit(port(path))),
+            _ => text,
+        };
         let content = text.map_or_else(|| content.to_vec(), String::into_bytes);
         files.push(KitFile::new(path, content));
     }
     files
+}
+
+/// The random numbers with an end, so that a loop which accepts no direction says so.
+fn with_limit(text: &str) -> String {
+    let (before, number) = text.split_once("    move || ").expect("a closure gives the numbers");
+    let number = number.split('\n').next().expect("it has a line");
+    format!(
+        "{before}    let mut drawn = 0;
+    move || {{
+        drawn += 1;
+        assert!(drawn <= 100_000, \"photon {{photon}} draws 100,000 numbers: does a loop end?\");
+        {number}
+    }}
+}}
+"
+    )
+}
+
+/// The run without its last line: students have no toolkit.
+fn without_toolkit(text: &str) -> String {
+    let lines = text.lines().filter(|line| !line.contains("use the toolkit"));
+    lines.map(|line| format!("{line}\n")).collect()
 }
 
 /// Whether the file `path` of the port tests the project, not the assignment.
