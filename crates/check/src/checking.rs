@@ -15,7 +15,7 @@ use crate::events::Notice;
 use crate::find::{CppSubmission, LIGHT, RENDERER};
 use crate::kit::Kit;
 use crate::plan::{CALLS_AROUND, PlanCounts, PlanStep};
-use crate::report::{Builds, CheckReport};
+use crate::report::{Builds, CheckReport, are_right};
 use crate::run::{Observed, run};
 use crate::sections;
 use crate::workshop::Workshop;
@@ -96,6 +96,10 @@ pub(crate) fn add_verdicts(observed: Observed, report: &mut CheckReport) {
     add_whole(observed, report);
     if report.whole.is_reference() {
         sections::refute(&mut report.sections);
+    } else if are_right(&report.sections)
+        && let Some(found) = report.whole.late_roulette()
+    {
+        sections::add_late_roulette(&mut report.sections, found);
     }
 }
 

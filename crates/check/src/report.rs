@@ -1,9 +1,11 @@
 //! What is said about one submission.
 
+use compare::differences::Differences;
 use compare::numbers::thousands;
-use compare::report::Outcome;
+use compare::report::{Outcome, RandomNumbers};
 use photon_list::reader::PhotonList;
 use serde::Serialize;
+use variants::section::Section;
 
 use crate::diagnostics::BuildError;
 use crate::find::CppSubmission;
@@ -94,6 +96,30 @@ impl Whole {
         }
     }
 
+    /// What shows that the roulette of some hit is wrong, though that of the probes is right: the
+    /// reference's numbers are drawn, as most records are the same, and yet a photon that was where
+    /// the reference has it decides otherwise. A run that uses its numbers in another way has
+    /// hardly a record in common beyond the first bounce: a third of all.
+    pub(crate) fn late_roulette(&self) -> Option<String> {
+        const STILL_THE_SAME: f64 = 0.2;
+        let report = self.comparison.as_ref().filter(|_| self.death.is_none())?;
+        let Differences { missing, extra, moved, .. } = report.differences;
+        let differing = report.reading_left.unwrap_or(missing + extra + moved);
+        let first = report.first_divergence.as_ref().filter(|first| {
+            first.certain && first.section == Some(Section::PhotonScatteringAbsorption)
+        })?;
+        let shares_numbers = report.random_numbers == RandomNumbers::Same
+            && differing as f64 <= STILL_THE_SAME * report.reference_records as f64;
+        let (photon, reason) = (first.photon?, first.reason.as_ref()?);
+        shares_numbers.then(|| {
+            format!(
+                "in the whole run, {} records are not the reference's; photon {photon} is the \
+                 first: {reason}",
+                thousands(differing)
+            )
+        })
+    }
+
     fn divergence(&self, report: &compare::report::Report, sections: &[SectionVerdict]) -> String {
         let Some(first) = &report.first_divergence else {
             return "not the reference's photons".to_owned();
@@ -122,7 +148,8 @@ impl Whole {
     }
 }
 
-fn are_right(sections: &[SectionVerdict]) -> bool {
+/// Whether there are sections, and all are right.
+pub(crate) fn are_right(sections: &[SectionVerdict]) -> bool {
     !sections.is_empty() && sections.iter().all(SectionVerdict::is_right)
 }
 

@@ -227,6 +227,16 @@ pub fn refute(verdicts: &mut [SectionVerdict]) {
     }
 }
 
+/// Adds what a whole run alone `found`: the probes see the roulette in few places.
+pub fn add_late_roulette(verdicts: &mut [SectionVerdict], found: String) {
+    let section = Section::PhotonScatteringAbsorption;
+    for verdict in verdicts.iter_mut().filter(|verdict| verdict.section == section) {
+        let advice = "Let the same roulette decide at every hit, with P_r of the material hit.";
+        verdict.fault(Some("late-roulette"), found.clone(), advice);
+        verdict.status = Status::Wrong;
+    }
+}
+
 /// Judges all five sections.
 pub fn judge(observed: &Observed) -> Vec<SectionVerdict> {
     let told = &mut Vec::new();

@@ -134,3 +134,24 @@ fn only_a_roulette_that_is_right_later_gets_the_remark() {
     let found: Vec<_> = reports.iter().map(remarks).collect();
     assert!(reports.is_empty() || found == [0, 0, 1], "{found:?}");
 }
+
+/// The probes find nothing in these. Only the first has the reference's numbers to the end.
+#[test]
+fn a_roulette_that_is_wrong_later_is_found_by_the_whole_run() {
+    const MAXIMUM: &str = "std::max(d.r, std::max(d.g, d.b))";
+    tells(&[
+        (
+            &[(
+                MAXIMUM,
+                "path.size() > 1 ? (d.r + d.g + d.b) / 3 : std::max(d.r, std::max(d.g, d.b))",
+            )],
+            &[(Scattering, Some("late-roulette"))],
+            "records are not the reference's",
+        ),
+        (
+            &[("path.push_back('D');", "path.push_back('D');\nif (path.size() > 1) rand();")],
+            &[],
+            "",
+        ),
+    ]);
+}
