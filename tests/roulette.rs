@@ -19,14 +19,14 @@ fn trace(
     trace_scripted(SECTION, renderer, &ray, path, remaining_bounces, numbers)
 }
 
-/// Checks whether a photon that draws `number` for the roulette scatters where it first hits. If
-/// so, it draws u1 and u2 as well.
+/// Checks that a photon that draws `number` for the roulette scatters where it first hits, and so
+/// draws u1 and u2 as well, or, if that is not `expected`, that it is absorbed.
 fn assert_scatters(renderer: &PhotonMappingRenderer, number: f32, expected: bool) {
     let mut path = vec![PathVertex::Light];
     let drawn = trace(renderer, &mut path, 1000, &[number, 0.3, 0.4]).drawn;
     let d = renderer.stored_scene.mesh_objects()[0].material.base_diffuse_reflection();
     let (draws, end) = if expected { (3, "scatters") } else { (1, "is absorbed") };
-    assert_eq!(drawn, draws, "{SECTION}: a photon that draws {number} where d = {d} {end}");
+    assert_eq!(drawn, draws, "{SECTION}: it draws {number} where d = {d}, and {end}");
 }
 
 /// A closed cube whose walls reflect `diffuse`.
@@ -83,6 +83,7 @@ fn one_more_bounce_allowed_is_one_more_hit() {
         let traced = trace(&cube, &mut path, remaining_bounces, numbers);
         (traced, path.len())
     };
+    // While a later section is blank, no photon gets to a second hit.
     let paths = [3, 4, 5, 6].map(|remaining_bounces| of_limit(remaining_bounces, &numbers));
     if paths[0].0.met_blank {
         return;
@@ -90,7 +91,7 @@ fn one_more_bounce_allowed_is_one_more_hit() {
     let (_, after_one_hit) = of_limit(3, &[]);
     for ((shorter, length), (longer, new_length)) in paths.iter().zip(&paths[1..]) {
         let [drawn, more] = [shorter.drawn, longer.drawn];
-        assert_eq!(more, drawn + 3, "{SECTION}: one hit more draws 3 numbers more, unless NaN");
+        assert_eq!(more, drawn + 3, "{SECTION}: draws at one more hit (a ray of NaN hits nothing)");
         let of_hit = after_one_hit - path_of_one_hit().len();
         assert_eq!(*new_length, length + of_hit, "{SECTION}: all hits are in the same path");
         for (photon, next) in longer.stored.iter().zip(longer.stored.iter().skip(1)) {

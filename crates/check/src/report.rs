@@ -99,7 +99,8 @@ impl Whole {
     /// What shows that the roulette of some hit is wrong, though that of the probes is right: the
     /// reference's numbers are drawn, as most records are the same, and yet a photon that was where
     /// the reference has it decides otherwise. A run that uses its numbers in another way has
-    /// hardly a record in common beyond the first bounce: a third of all.
+    /// hardly a record in common beyond the first bounce: a third of all. If it does so at late
+    /// hits alone, it loses as many photons as it wins; a wrong chance mostly loses or mostly wins.
     pub(crate) fn late_roulette(&self) -> Option<String> {
         const STILL_THE_SAME: f64 = 0.2;
         let report = self.comparison.as_ref().filter(|_| self.death.is_none())?;
@@ -109,7 +110,8 @@ impl Whole {
             first.certain && first.section == Some(Section::PhotonScatteringAbsorption)
         })?;
         let shares_numbers = report.random_numbers == RandomNumbers::Same
-            && differing as f64 <= STILL_THE_SAME * report.reference_records as f64;
+            && differing as f64 <= STILL_THE_SAME * report.reference_records as f64
+            && 2 * report.submission_records.abs_diff(report.reference_records) >= differing;
         let (photon, reason) = (first.photon?, first.reason.as_ref()?);
         shares_numbers.then(|| {
             format!(

@@ -11,6 +11,7 @@ use super::cases::{Change, Faults, tells};
 use super::statuses;
 use crate::report::CheckReport;
 
+const MAXIMUM: &str = "std::max(d.r, std::max(d.g, d.b))";
 const HEIGHT: &str = "std::sqrt(1.f - u1)";
 const OTHER_HEIGHT: Faults = &[(Sampling, Some("other-height"))];
 const NORMAL: Change = ("n = state.ComputeNormal()", "n = -state.ComputeNormal()");
@@ -116,11 +117,7 @@ fn only_a_roulette_that_is_right_later_gets_the_remark() {
             &[(Scattering, Some("inverted-roulette"))],
             "",
         ),
-        (
-            &[("std::max(d.r, std::max(d.g, d.b))", "(d.r + d.g + d.b) / 3")],
-            &[(Scattering, Some("mean-roulette"))],
-            "",
-        ),
+        (&[(MAXIMUM, "(d.r + d.g + d.b) / 3")], &[(Scattering, Some("mean-roulette"))], ""),
         (
             &[(DECIDES, "(float)rand() / RAND_MAX >= pr && path.size() > 1")],
             &[(Scattering, Some("no-roulette"))],
@@ -135,10 +132,11 @@ fn only_a_roulette_that_is_right_later_gets_the_remark() {
     assert!(reports.is_empty() || found == [0, 0, 1], "{found:?}");
 }
 
-/// The probes find nothing in these. Only the first has the reference's numbers to the end.
+/// The probes find nothing in these. Only the first has the reference's numbers to the end; the
+/// others are right, and draw a number more at every hit, or at late hits.
 #[test]
 fn a_roulette_that_is_wrong_later_is_found_by_the_whole_run() {
-    const MAXIMUM: &str = "std::max(d.r, std::max(d.g, d.b))";
+    const GROWS: &str = "path.push_back('D');";
     tells(&[
         (
             &[(
@@ -148,10 +146,7 @@ fn a_roulette_that_is_wrong_later_is_found_by_the_whole_run() {
             &[(Scattering, Some("late-roulette"))],
             "records are not the reference's",
         ),
-        (
-            &[("path.push_back('D');", "path.push_back('D');\nif (path.size() > 1) rand();")],
-            &[],
-            "",
-        ),
+        (&[(GROWS, "path.push_back('D');\nif (path.size() > 1) rand();")], &[], ""),
+        (&[(GROWS, "path.push_back('D');\nif (path.size() > 2) rand();")], &[], ""),
     ]);
 }

@@ -24,7 +24,7 @@ enum KitCommand {
     /// A Rust project for students: the reference with the handout's five sections left to write
     #[command(after_help = "\
 Example: photon-mapping kit student --out starter/
-Then, in starter/: cargo test names what to write next, cargo run --release draws the picture.")]
+Then, in starter/: cargo test names sections to write, cargo run --release draws the picture.")]
     Student(OutArgs),
     /// An autograder for Gradescope: zip the folder's files and upload them
     #[command(after_help = "Example: photon-mapping kit gradescope --out kit/")]
